@@ -3,8 +3,8 @@
 // maximal_disks (generators/poisson_disk/maximal_disks.hpp) in any dimension and any box, including
 // boxes of fewer than five cells along a direction.
 //
-// Each tile stores the points that reach into it, and visits all of them for each cell. Gaps are
-// whole cells at first, and are cut down round by round (generators/poisson_disk/gaps.hpp).
+// Each tile stores all points whose disks overlap it, and visits all of them for each cell. Gaps
+// are whole cells at first, and are cut down round by round (generators/poisson_disk/gaps.hpp).
 //
 // Shape   D = 2 ... 6.
 // Cost    O(n) time; see maximal_disks.hpp. The samplers of plane and space are 2.6 and 4.6 times
@@ -49,7 +49,7 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
         this->pending = {};
     }
 
-    /// Collects the points that reach into a cell, relative to its corner, in radii.
+    /// Collects the points whose disks overlap a cell, relative to its corner, in radii.
     template <class Real>
     void gather(const Cell& cell, NearDisks<D, Real>& near) const {
         near.clear();
@@ -75,9 +75,9 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
     }
 
   private:
-    static constexpr double reaching = 1 + 1e-9;  ///< square of a radius, with room for rounding
+    static constexpr double reaching = 1 + 1e-9;  ///< squared radius, 1, with room for rounding
 
-    /// A point that reaches into the tile.
+    /// A point whose disk overlaps the tile.
     struct Near {
         Point place;  ///< from the tile's first cell, in cells
         Point at;
@@ -149,7 +149,7 @@ class BoxSampler {
         }
     }
 
-    /// Throws darts at the open sub-cells of a gap; adds the rest of the gap to the workspace.
+    /// Throws darts at the open sub-cells of a gap; adds the parts that stay open to the workspace.
     template <class Real>
     void throw_at(const T& tile, const Gap<D>& gap, const PoissonCounts& counts, std::uint64_t key,
                   Workspace& work, const NearDisks<D, Real>& near,

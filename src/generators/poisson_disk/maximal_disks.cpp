@@ -11,7 +11,7 @@
 namespace stipple::poisson_disk {
 namespace {
 
-/// True if every direction has five cells or more, of which a radius spans two.
+/// True if there are five cells or more along every direction and a radius spans two of them.
 bool is_fine(const BoxSpace& space, const std::vector<double>& cells, double radius) {
     bool fine = cells.size() <= 3;
     for (std::size_t k = 0; k < cells.size(); ++k) {

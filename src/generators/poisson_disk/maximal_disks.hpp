@@ -8,7 +8,7 @@
 // only at uncovered space, more densely as it shrinks, with the same result. Uncovered space is
 // represented by cells, then by those sub-cells of cells that no single disk covers, and in the end
 // by gaps, which are cut down to such sub-cells again and again (generators/poisson_disk/gaps.hpp).
-// A gap without one is certainly covered, and after the last gap the set is maximal.
+// A gap without such sub-cells is certainly covered, and after the last gap the set is maximal.
 //
 // Darts are thrown in rounds, at all tiles of the box (generators/poisson_disk/tile_rounds.hpp).
 // Boxes of five cells or more along each direction have samplers of their own in the plane and in

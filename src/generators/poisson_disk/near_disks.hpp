@@ -6,12 +6,14 @@
 // On a line of sub-cells along the first direction, a disk covers those between two ends, which
 // take one square root:
 //
-//     |x_1 - p_1| < sqrt(1 - sum_{k > 1} y_k^2),    y_k the distance from p_k to the line's far face.
+//     |x_1 - p_1| < sqrt(1 - sum_{k > 1} y_k^2),    y_k the distance from p_k to the line's far
+//     face.
 //
 // Shape   D = 2 ... 6.
 // Cost    eight lines, or eight disks, at a time.
 // Promise a sub-cell reported as covered is covered by a single disk, and answers of hit or no hit
-//         are right: within `slack` of a rim, sub-cells are uncovered and the answer is `unsure`.
+//         are right: within `slack` of a rim, sub-cells count as uncovered, and the answer is
+//         `unsure`.
 #pragma once
 
 #include <algorithm>
@@ -90,8 +92,7 @@ struct SubcellGrid {
     }
 };
 
-/// Returns the sub-cells that no single disk covers, and collects the disks that reach into the
-/// gap.
+/// Returns the sub-cells that no single disk covers, and collects the disks that overlap the gap.
 template <std::size_t D, class Real>
 SubcellBits uncovered(const NearDisks<D, Real>& near, const SubcellGrid<D, Real>& grid, Real slack,
                       NearDisks<D, Real>& reaching);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Darts that no older point excludes, until it is decided which are kept: those of one round on one
-// tile, sorted into blocks of cells for neighbour queries.
+// Darts of one round on one tile that no older point excludes. They are pending until it is decided
+// which of them become points, and sorted into blocks of cells for neighbour queries.
 #pragma once
 
 #include <algorithm>
@@ -73,11 +73,11 @@ class PendingDarts {
     }
 
     [[nodiscard]] const std::vector<Dart>& all() const { return all_; }
-    /// Whether the darts are those of that round.
+    /// Whether these are the darts of the given round.
     [[nodiscard]] bool of(std::uint64_t round) const { return round_ == round; }
 
-    /// Calls visit(dart) for the darts of all blocks that overlap the range of cells low..high, until
-    /// a call returns true. Returns whether one did. The range may extend beyond the tile.
+    /// Calls visit(dart) for the darts of all blocks that overlap the range of cells low..high,
+    /// until a call returns true. Returns whether one did. The range may extend beyond the tile.
     template <class Visit>
     bool any(Cell low, Cell high, const Visit& visit) const {
         for (std::size_t k = 0; k < D; ++k) {

@@ -50,8 +50,8 @@ class Search {
         return false;
     }
 
-    /// Makes the points for a radius; keeps them if they are `count`, or the best so far. Returns
-    /// their number.
+    /// Makes the points for a radius; keeps them if their number is `count`, or the best so far.
+    /// Returns their number.
     std::uint64_t attempt(double r, std::uint64_t seed) {
         constexpr double typical = 8;  // typical number of tries
         cells_ = std::min(cells_, r);

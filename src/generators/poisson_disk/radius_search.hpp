@@ -14,7 +14,7 @@
 
 namespace stipple::poisson_disk {
 
-/// Points and a radius that they keep.
+/// Points, and the distance that every two of them keep.
 struct Packing {
     Rows rows = {};
     double radius = 0;

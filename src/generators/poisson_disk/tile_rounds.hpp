@@ -104,12 +104,12 @@ class Tile {
         return static_cast<std::size_t>(mean + std::sqrt(mean) / 2 + 1);
     }
 
-    /// Another tile within a radius of this one, and the offset from this one's first cell to its
-    /// first. On a small torus, several may be images of the same tile, or of this one.
+    /// A tile within a radius of this one, and the offset from this tile's first cell to that of
+    /// the neighbour. On a small torus, several may be images of the same tile, or of this one.
     struct Neighbour {
         std::uint32_t number;
         Cell steps;
-        unsigned faces = 0;  ///< faces of this tile between both: bit 2 k or 2 k + 1
+        unsigned faces = 0;  ///< faces of this tile on the neighbour's side: bit 2 k or 2 k + 1
     };
     std::vector<Neighbour> neighbours;
     std::array<Pending, 2> pending;  ///< darts of even and odd rounds
@@ -156,7 +156,7 @@ void add_pending(const T& tile, const Grid<D>& grid, const TileCell<D>& cell,
 }
 
 /// Draws darts on the open sub-cells of a gap, and calls draw(place in its cell) for each. Adds
-/// the rest of the gap to `left`.
+/// the parts of the gap that stay open to `left`.
 template <std::size_t D, class Draw>
 void throw_at_gap(const Gap<D>& gap, SubcellBits open, const PoissonCounts& counts,
                   SplitMix64& mixer, std::vector<Gap<D>>& left, const Draw& draw) {

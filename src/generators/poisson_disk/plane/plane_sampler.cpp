@@ -38,12 +38,12 @@ using Cell = TileCell<2>;
 using Point = Grid<2>::Point;
 using Counts = std::vector<PoissonCounts>;
 
-/// A dart on a tile: its place in 2^-26 of a cell, from the tile's first cell.
+/// A dart on a tile: its place from the tile's first cell, in units of 2^-26 of a cell.
 struct Dart {
     std::uint32_t x;
     std::uint32_t y;
     std::uint32_t time;    ///< within its round
-    std::uint32_t detail;  ///< index of the exact place, if it has one
+    std::uint32_t detail;  ///< for a dart on a gap: index of its exact place in `places`
 };
 
 /// Buffers for the work on a tile, one set per thread.
@@ -51,8 +51,8 @@ struct PlaneWorkspace : GapWorkspace<2> {
     std::vector<Dart> darts;
     std::vector<std::uint64_t> order;  ///< darts in order of time
     std::vector<Point> places;         ///< darts on gaps, from the tile's first cell, in cells
-    std::array<std::uint64_t, plane_side + 4> waiting;  ///< a bit for each cell with pending darts;
-                                                        ///< row y of cells is word y + 2
+    /// A bit for each cell, set if it has pending darts; row y of cells is word y + 2.
+    std::array<std::uint64_t, plane_side + 4> waiting;
 };
 
 /// Sorts the indices of the darts by time; darts of equal times keep their order.
@@ -117,7 +117,7 @@ class Thrower {
                 (d.y + static_cast<double>(more & 0xffffffff) * 0x1p-32) / cell_unit};
     }
 
-    /// Whether darts that are unknown or undecided may exclude this one.
+    /// Whether a dart at `at` may be excluded by a pending dart, or by one of another tile.
     [[nodiscard]] bool waits(const Cell& cell, const Point& at) const {
         const auto [column, row] = cell;
         if (column < 2 || row < 2) return true;
@@ -281,7 +281,7 @@ class PlaneSampler {
         }
     }
 
-    /// Draws darts on the open sub-cells of a gap; adds the rest of the gap to the workspace.
+    /// Draws darts on the open sub-cells of a gap; adds the parts that stay open to the workspace.
     void draw_on_gap(const PlaneTile& tile, const Gap<2>& gap, const PoissonCounts& counts,
                      std::uint64_t key, PlaneWorkspace& work) const {
         const Cell cell = PlaneTile::cell_at(gap.place);

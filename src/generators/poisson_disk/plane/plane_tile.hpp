@@ -3,7 +3,7 @@
 // Tiles of cells of the plane, with all that is needed to throw darts at them one after the other:
 // a tile's points and their coverage, and those of two rows of cells around it.
 //
-// Shape   cells that hold at most one point, two of which a radius spans; at least five cells along
+// Shape   cells hold at most one point, and a radius spans two cells; at least five cells along
 //         each direction. A tile may be its own neighbour on a torus.
 #pragma once
 
@@ -29,8 +29,8 @@ namespace stipple::poisson_disk {
 //
 // Coordinates are in units of 1/8192 of the radius, modulo 8 radii. Positions that are compared are
 // within three cells, at most 2.2 radii, so that differences modulo 2^16 are right. A cell without
-// a point holds a position 4 radii beside its middle, which is farther than a radius from all that
-// it is compared with.
+// a point holds a position 4 radii beside its middle, which is farther than a radius from any
+// position it is compared with.
 //
 // Shape   rows of up to 64 cells, with two more at each end.
 // Promise distances are off by less than `position_slack` units.
@@ -101,8 +101,8 @@ class FixedPositions {
     static constexpr std::size_t number(std::size_t x, std::size_t y) { return y * stride + x; }
 
     /// Whether a point in the 25 cells from `first` on covers a place in the middle one.
-    /// @param sure squared distances below it are hits
-    /// @param possible squared distances from it on are no hits
+    /// @param sure squared distance below which a point is a hit
+    /// @param possible squared distance from which on it is none
     [[nodiscard, gnu::always_inline]] Hit hit(std::size_t first, FixedPosition place,
                                               std::int32_t sure, std::int32_t possible) const {
         const FixedPosition* row = positions_ + first;
@@ -244,7 +244,7 @@ struct PlaneRules {
     const Grid<2>& grid;
     CoverageTable table;
     std::int32_t sure;      ///< squared distance of positions below which points are too near
-    std::int32_t possible;  ///< squared distance from which on they are not
+    std::int32_t possible;  ///< squared distance from which on points are not too near
 };
 
 /// Memory for the cells of a tile.
@@ -282,15 +282,16 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
                                       static_cast<std::size_t>(cell[1] + int{halo}));
     }
 
-    /// Coverage of a cell by single disks; that of the next cells in the row follows it.
+    /// Pointer to the coverage of a cell by single disks, followed by that of the next cells of its
+    /// row.
     [[nodiscard]] const SubcellBits* covered(std::size_t number) const { return covered_ + number; }
 
     [[nodiscard]] bool taken(std::size_t number) const { return index_[number] != none; }
 
     [[nodiscard]] const FixedPositions& positions() const { return positions_; }
 
-    /// Calls visit(point, cell) for the points of the 25 cells around one until a call returns
-    /// false.
+    /// Calls visit(point, cell) for the points of the 5 x 5 cells around `cell` until a call
+    /// returns false.
     template <class Visit>
     void for_about(const Cell& cell, const Visit& visit) const {
         for (int y = cell[1] - halo; y <= cell[1] + halo; ++y)
@@ -301,7 +302,7 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
     }
 
     /// Adds a point of the tile.
-    /// @param mask coverage by the point
+    /// @param mask sub-cells that its disk covers
     void add(const Cell& cell, FixedPosition position, const Point& at,
              const CoverageTable::Row* mask) {
         const std::size_t number = number_of(cell);

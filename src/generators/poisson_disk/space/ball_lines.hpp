@@ -8,8 +8,8 @@
 // the sub-cells between two places. Finding these takes a square root, for many lines side by side.
 //
 // Cost    0.25 us for a ball.
-// Promise exactly those sub-cells have their bit set that a single ball covers, not within
-//         float_slack of its rim.
+// Promise the bit of a sub-cell is set exactly if a single ball covers the sub-cell, and not within
+//         float_slack of the ball's rim.
 #pragma once
 
 #include <array>
@@ -50,7 +50,7 @@ struct PlacedBall {
 void cover_lines(const std::array<float, 3>& scales, std::span<const PlacedBall> balls,
                  std::uint32_t* lines);
 
-/// First word of the lines through a cell; it holds seven other cells, too.
+/// First word of the lines through a cell; a word holds eight neighbouring cells.
 inline const std::uint32_t* lines_of(const std::uint32_t* lines, const TileCell<3>& cell) {
     return lines + BallLines::at(static_cast<std::size_t>(cell[0]) / 8,
                                  4 * static_cast<std::size_t>(cell[1]),

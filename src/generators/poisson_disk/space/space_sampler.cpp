@@ -38,7 +38,7 @@ struct SubcellDart {
 struct SpaceWorkspace : GapWorkspace<3> {
     std::vector<SubcellDart> drawn;  ///< darts on a layer of cells
     std::vector<Gap<3>> of_cell;
-    std::vector<SubcellBits> open;  ///< open sub-cells of these gaps
+    std::vector<SubcellBits> open;  ///< open sub-cells of each gap
 };
 
 /// Number of sub-cells that share one Poisson draw for their darts: two lines of 32 in each of four
@@ -195,7 +195,7 @@ class SpaceSampler {
         }
     }
 
-    /// Throws darts at the open sub-cells of a cell's gaps; adds the rest of these to the
+    /// Throws darts at the open sub-cells of a cell's gaps; adds the parts that stay open to the
     /// workspace.
     void throw_at_cell(const SpaceTile& tile, const Cell& cell, SubcellBits some,
                        const Counts& counts, std::uint64_t key, SpaceWorkspace& work) const {

@@ -3,7 +3,7 @@
 // Tiles of cells in space, with all that is needed to throw darts at them: a tile's points and
 // their coverage, and those of two layers of cells around it.
 //
-// Shape   cells that hold at most one point, two of which a radius spans; at least five cells along
+// Shape   cells hold at most one point, and a radius spans two cells; at least five cells along
 //         each direction. Up to 32 cells along each side of a tile; a tile may be its own neighbour
 //         on a torus.
 #pragma once
@@ -250,8 +250,8 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
     std::vector<std::uint32_t> lines_;
     SpaceBits taken_;
     std::vector<std::uint16_t> numbers_;  ///< by cell: index in places_ of its point, if taken
-    /// Points from the corners of their cells, in radii; the last number is the index among the
-    /// tile's points, or -1 - the index in exact_. These are exact, as they are small integers.
+    /// Points from the corners of their cells, in radii; the last number is the index i among the
+    /// tile's points, or -1 - i for the index in exact_. Floats hold these small integers exactly.
     std::vector<SpaceRules::Quad> places_;
     std::vector<double> exact_;  ///< points of other tiles
     std::size_t own_ = 0;

@@ -5,11 +5,11 @@
 //     f(x) = sqrt(largest density / density(x)),    or a given length,    or 1,
 //
 // constant on the cells of a grid that is stretched over the rectangle. Points are not allowed
-// where the density is 0, or outside a mask; the largest density is that of the other places. If a
-// density and a mask have different cells, the lines of both bound the field's cells.
+// where the density is 0, or outside a mask; the largest density is that where they are allowed. If
+// a density and a mask have different cells, the lines of both bound the field's cells.
 //
 // Cells are joined two by two, along the direction in which they are shorter, until one covers the
-// rectangle. Each joined cell has the bounds of f in it.
+// rectangle. Each joined cell stores the minimum and the maximum of f in it.
 //
 // Shape   any rectangle, any grids.
 // Cost    24 bytes a cell; at() O(log width + log height).
@@ -41,7 +41,8 @@ class RadiusField {
     /// Value of f where points are not allowed.
     static constexpr double closed = std::numeric_limits<double>::infinity();
 
-    /// Maximum ratio of the largest f to the least; no box is that wide.
+    /// Maximum ratio of the largest f to the smallest; larger values of f are reduced to it, which
+    /// has no effect, because no box is that wide.
     static constexpr double widest = 1e75;
 
     /// A cell, or several joined ones: column i and row j of its level. Level 0 has the cells of

@@ -106,7 +106,7 @@ class VariedSampler {
         gaps_.push_back(gap);
     }
 
-    /// Collects the disks that reach into a gap.
+    /// Collects the disks that overlap a gap.
     void gather(const VariedGap& gap) {
         const double most = scale_ * field_.most(gap.node);
         index_.any_near(gap.low, gap.high, most, [&](const Disk& disk) {
@@ -115,14 +115,15 @@ class VariedSampler {
         });
     }
 
-    /// Appends to near_ copies of its disks first, ..., last - 1 that reach into a gap.
+    /// Appends to near_ copies of those of its disks first, ..., last - 1 that overlap a gap.
     void narrow(std::size_t first, std::size_t last, const VariedGap& gap) {
         const double most = scale_ * field_.most(gap.node);
         for (std::size_t i = first; i < last; ++i)
             if (reaches(near_[i], gap, most)) near_.push_back(near_[i]);
     }
 
-    /// Throws darts at a gap or its halves. Only disks of near_ from `first` on may reach into it.
+    /// Throws darts at a gap or its halves. Only disks of near_ from `first` on may overlap the
+    /// gap.
     void throw_at(const VariedGap& gap, std::size_t first) {
         const double least = field_.least(gap.node);
         if (least == RadiusField::closed) return;
@@ -189,7 +190,7 @@ class VariedSampler {
                                    [&](const Disk& other) { return index_.too_near(disk, other); });
     }
 
-    /// Whether a disk may be too near to a dart on the gap, whose radius is at most `most`.
+    /// Whether a disk may be too near to a dart on the gap; the radius of darts is at most `most`.
     [[nodiscard]] bool reaches(const Disk& disk, const VariedGap& gap, double most) const {
         const double r = std::min(disk.radius, most) + finest_;
         double sum = 0;
@@ -201,7 +202,8 @@ class VariedSampler {
         return sum < r * r;
     }
 
-    /// Whether a disk is too near to every dart on the gap, whose radius is at least `least`.
+    /// Whether a disk is too near to every dart on the gap; the radius of darts is at least
+    /// `least`.
     [[nodiscard]] bool covers(const Disk& disk, const VariedGap& gap, double least) const {
         const double r = std::min(disk.radius, least);
         double sum = 0;

@@ -44,8 +44,8 @@ double expected_varied(const RadiusField& field, double scale);
 Rows varied_disks(const BoxSpace& space, const RadiusField& field, double scale, double dart_scale,
                   std::uint64_t seed, const RunContext& run);
 
-/// Reorders the points of varied_disks() so that the first m are well spread, for every m: as
-/// spread_out (generators/spread_order.hpp), with radii in proportion to r.
+/// Reorders the points of varied_disks() so that the first m are well spread, for every m, like
+/// spread_out() (generators/spread_order.hpp), but with radii in proportion to r.
 Rows spread_varied(std::span<const double> rows, const BoxSpace& space, const RadiusField& field,
                    double scale, const RunContext& run);
 
