@@ -7,11 +7,11 @@
 //
 // In up to 3 dimensions only a few of the m candidates are made. The box is divided into cells,
 // each with an upper bound of the distance from any place in it to the nearest point. Some cells,
-// those with the highest bounds, are open. First the number of candidates in open cells is drawn, a
-// binomial number, and those candidates are made. While the best of them is below the highest bound
-// of a closed cell, that cell is opened too, and gets its binomial number of the remaining
-// candidates. The others cannot win and are never made. A cell is halved, or its bound recomputed,
-// when its turn comes.
+// those with the highest bounds, are open. First the number of candidates in open cells is drawn
+// from a binomial distribution, and those candidates are made. While the distance of the best of
+// them is below the highest bound of a closed cell, that cell is opened too, and one more binomial
+// draw gives its number of the remaining candidates. The others cannot win and are never made. When
+// a cell has the highest bound, it is halved, or its bound recomputed.
 //
 // In more dimensions cells exclude too little, so all candidates are made.
 //
@@ -62,7 +62,7 @@ class PointDraws {
     PointDraws(const Rng& rng, std::uint64_t point) : stream_(rng.bits(point)) {}
     double next() { return to_unit(stream_.next()); }
 
-    /// Draws a binomial number: hits among m trials of probability p.
+    /// Binomially distributed count: hits among m trials of probability p.
     std::uint64_t binomial(std::uint64_t m, double p) {
         if (p >= 1) return m;
         // Split in two, as the probability of no hit at all could underflow.
@@ -91,9 +91,9 @@ struct Waiting {
     }
 };
 
-/// The box divided into cells with bounds. Open cells, those of the highest bounds, receive
-/// candidates together; enough are open that a few candidates fall into them. The others are in a
-/// heap.
+/// The box divided into cells, each with an upper bound of distances. Cells with the highest bounds
+/// are open: their candidates are drawn together. Enough of them are open to receive a few
+/// candidates. The other cells are in a heap.
 template <std::size_t D>
 class LazySearch {
   public:
@@ -166,9 +166,9 @@ class LazySearch {
         double bound;
         std::uint32_t cell;
         std::uint32_t depth;
-        std::uint32_t size = 0;             ///< number of `points` in use
-        std::array<Point, D + 1> points{};  ///< near the cell, relative to `low`; they reject most
-                                            ///< candidates
+        std::uint32_t size = 0;  ///< number of `points` in use
+        /// Points near the cell, relative to `low`; they reject most candidates.
+        std::array<Point, D + 1> points{};
     };
 
     /// Updates the bound of the highest cell of the heap; if it is unchanged, halves or opens the
@@ -215,8 +215,8 @@ class LazySearch {
         open_share_ -= shares_[cell.depth];
     }
 
-    /// Processes the highest cell of the heap. If it is opened, makes its binomial number of the
-    /// `left` remaining candidates. Returns the number made.
+    /// Processes the highest cell of the heap. If it is opened, draws how many of the `left`
+    /// remaining candidates are in it, and makes these. Returns their number.
     std::uint64_t go_on(std::uint64_t left, PointDraws& draws) {
         const double rest = 1 - open_share_;
         if (!pull()) return 0;
@@ -228,8 +228,8 @@ class LazySearch {
         return hits;
     }
 
-    /// Open cell at `place` if all open cells are joined end to end; places are fractions of the
-    /// box.
+    /// Open cell at `place`, if all open cells are joined end to end by their volumes. A place is
+    /// the volume before it, as a fraction of the box.
     [[nodiscard]] const Open& open_cell(double place) const {
         std::uint32_t last = 0;
         for (std::uint32_t depth = 0; depth <= most_halvings; ++depth) {
@@ -243,8 +243,8 @@ class LazySearch {
         return list[std::min(index, list.size() - 1)];
     }
 
-    /// Updates the bounds of open cells near the new point, or in which candidates lost; closes or
-    /// halves some.
+    /// Updates the bounds of open cells that are near the new point or in which candidates lost;
+    /// closes or halves some of them.
     void tidy() {
         if (points_.count() > 2 * tiles_.size()) make_tiles();
         const double level = crowded_ || heap_.empty() ? best_ : heap_.top().bound;
@@ -437,9 +437,9 @@ class LazySearch {
     double open_share_ = 0;     ///< fraction of the box in open cells; exact
     std::uint32_t newest_ = 0;  ///< cell opened last
     GridFrame<D> tiles_;        ///< frame of tile_cells_
-    std::vector<std::vector<std::uint32_t>> tile_cells_;  ///< open cells by tile; some have been
-                                                          ///< closed since
-    std::vector<std::uint32_t> missed_;                   ///< cells in which candidates lost
+    /// Open cells by tile; some have been closed since.
+    std::vector<std::vector<std::uint32_t>> tile_cells_;
+    std::vector<std::uint32_t> missed_;  ///< cells in which candidates lost
     CoveringBound<D> covering_;
     double open_size_ = 1;  ///< cells with more expected candidates are halved, not opened
     double all_ = 1;        ///< number of candidates for the current point
@@ -478,7 +478,8 @@ std::vector<double> lazily(const BoxSpace& space, const Plan& plan, double facto
 constexpr std::size_t together = 32;  ///< points tested at once
 constexpr double out_of_reach = 1e300;
 
-/// Least squared distance from p to the points. Returns `enough` once a point is as near as that.
+/// Least squared distance from p to the points. Stops and returns `enough` once a point is at most
+/// that near.
 /// @param along coordinates of the points, padded to a multiple of `together`
 STIPPLE_WIDE double least_squared(std::span<const std::vector<double>> along,
                                   std::span<const double> turns, const double* p, double enough) {

@@ -6,11 +6,11 @@
 //     minimise over x  sum over i of integral of |y - x_i|^2 rho(y) dy over cell i,
 //     with weights w such that  integral of rho over cell i = total / n  for all i.
 //
-// The weights are found for the present points (relaxation/equal_cells.hpp), then the points move
-// to the centroids of their cells, in turn; both lower the cost. Undisturbed, points form hexagonal
-// crystals. So every tenth iteration, except the last nine, moves points in hexagonal regions at
-// random by up to half a spacing. A point is in such a region if the bond order of its k neighbours
-// at angles theta_j is high,
+// Two steps alternate, which both lower the cost: the weights are found for the current points
+// (relaxation/equal_cells.hpp), and the points move to the centroids of their cells. Undisturbed,
+// points form hexagonal crystals. So every tenth iteration, except the last nine, moves points in
+// hexagonal regions at random by up to half a spacing. A point is in such a region if the bond
+// order of its k neighbours at angles theta_j is high,
 //
 //     | sum_j exp(6 i theta_j) | / k  >  3/4    for the point and two of its neighbours or more.
 //
@@ -66,8 +66,8 @@ Vec2 sixfold(const Vec2& d) {
     return times(times(square, square), square);
 }
 
-/// Marks points with nearly hexagonal neighbours, if at least two of these have such neighbours,
-/// too.
+/// Marks points whose neighbours form nearly a hexagon, if the same is true of at least two of the
+/// neighbours.
 std::vector<bool> hexagons(const EqualCells& cells) {
     struct Order {
         Vec2 sum;

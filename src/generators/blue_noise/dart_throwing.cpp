@@ -5,7 +5,7 @@
 //
 // --radius R  the radius is fixed; the set ends when --misses darts in a row were rejected. With
 //             --count too, exactly so many points, or an error.
-// --count N   the radius shrinks: it starts as the largest distance of the box and is multiplied by
+// --count N   the radius shrinks: it starts at the largest distance in the box and is multiplied by
 //             --shrink after every --misses darts in a row that were rejected. The first i points
 //             keep the radius at which point i was placed, so that every prefix is well spread.
 // --density   in the plane, darts are distributed by it. The radius is r at the largest density,
@@ -151,7 +151,7 @@ class DenseDarts {
     std::vector<double> rows_;
     std::vector<double> times_;  ///< radius of each point as a multiple of r
     std::optional<VariedIndex> disks_;
-    double indexed_ = 0;  ///< the r for which the index was made
+    double indexed_ = 0;  ///< value of r for which the index was made
 };
 
 /// @throws Error(limit) if the points exceed the memory limit or 32-bit indices

@@ -6,7 +6,7 @@
 //     w_i = sum over j != i of  (1 - max(d_ij, 2 r_min) / (2 r_max))^8    where d_ij < 2 r_max,
 //     r_min = 0.65 r_max (1 - (N / M)^1.5).
 //
-// If the spacing varies, each point has an r_max of its own: for a pair, r_i + r_j replaces
+// If the spacing varies, each point i has an r_max of its own, r_i: for a pair, r_i + r_j replaces
 // 2 r_max, and r_min / r_max stays the same.
 //
 // Each term is rounded down to a multiple of 2^-40, so that sums are exact in any order, and remain

@@ -8,16 +8,15 @@
 // which never lowers the minimum distance of the set, and raises it close to that of hexagons,
 // while the points stay irregular.
 //
-// These circles are centred at corners of Voronoi cells: each cell is stored with its farthest
+// Empty circles are centred at corners of Voronoi cells: each cell is stored with its farthest
 // corner, in a tree that finds the farthest of all. A move recomputes the cells around the old and
 // the new place, about 14 of them. Between walls (--bounded) cells end at the walls, and so do the
-// possible centres. Centres may be on a wall or in a corner, and as distances are largest there,
-// many are.
+// possible centres. Many centres are on a wall or in a corner, because distances are largest there.
 //
 // Once points are spread, the largest circle is mostly the one that the removed point has left, and
-// all points creep to better places together. Then a move overshoots the centre by 0.8 of its
-// length, as in successive over-relaxation, unless that brings the point nearer to others than it
-// was. So a minimum distance of 0.93 (hexagons: 1) takes 50 iterations, instead of 400.
+// points move to better places only slowly, all together. Then a move overshoots the centre by 0.8
+// of its length, as in successive over-relaxation, unless that brings the point nearer to others
+// than it was. So a minimum distance of 0.93 (hexagons: 1) takes 50 iterations, instead of 400.
 //
 // Shape   d = 2; any rectangle, torus or bounded. No density: we know of no variant for one that we
 //         could check against its paper.

@@ -7,8 +7,8 @@
 // which lowers the energy  E = sum over i of integral of |x - x_i|^2 rho(x)^2 dx over cell i  until
 // every point is the centroid of its cell. rho is the density of --density, or constant. It is
 // squared because points that minimise E have a density proportional to the root of the density
-// that E integrates.
-// them: few iterations leave them irregular, many make crystals.
+// that E integrates. Without a density, points settle into hexagons with defects between them: few
+// iterations leave them irregular, many make crystals.
 //
 // Shape   d = 2; any rectangle, its opposite sides joined (torus) or walls.
 // Cost    1.3 us a point and iteration on one core, with a density 2 us and more; 100 bytes a

@@ -11,24 +11,23 @@
 // unit ball. The points of a file may fill a part of their box, or be on a surface:
 // --manifold-dimension 2 --measure 12.566 takes d and A from the unit sphere, while distances stay
 // those in space. Without these options, d and A are estimated from the points (crowd_extent() in
-// those in space. Without these options, d and A are estimated from the points (crowd_extent() in
 // eliminator.hpp), and a note reports them. If points of a file are equal, all but one of them are
 // removed before any other point.
 //
-// --density: in the plane, the M points are distributed by it, and a point's r_max is divided by
-// the root of the density at the point, whose mean is 1.
+// --density: in the plane, the M points are distributed by the density, scaled to a mean of 1. The
+// r_max of a point is divided by the root of the density at the point.
 //
 // --order random       the remaining points, in their original order
 // --order progressive  half of the remaining points are eliminated in the same way, with r_max for
-//                      the number then left, and go to the end, the first one last; then half of
-//                      the others, and so on. Every prefix is well spread.
+//                      the number that is left. They go to the end, the first eliminated one last.
+//                      Then half of the others, and so on. Every prefix is well spread.
 //
 // Shape   d = 1, ..., 6; distances are those in the box of --bounds, across its faces (torus) or
 //         bounded. With --from they are bounded unless --torus is given; the box is --bounds, or on
 //         the torus the unit cube, or else the smallest one around the points.
 // Cost    2-D: 15 us a point of the result at the ratio 5, with a density 22; 450 and 650 bytes a
 //         point. A file is read three times.
-// Promise exactly N points; always the point of greatest weight is removed, the first of equals.
+// Promise exactly N points. The point of greatest weight is removed each time, the first of equals.
 // Source  C. Yuksel, Comput. Graph. Forum 34 (2015) 25-32, doi:10.1111/cgf.12538.
 
 #include <algorithm>

@@ -10,7 +10,7 @@
 // down in the next; so large regions get their share even if rho is too low for a point in every
 // tile.
 //
-// Shape   among points with the n-th score, those of lower tile, then of lower rank, are kept.
+// Shape   of several points with the n-th score, those of lower tile, then of lower rank, are kept.
 // Cost    3 visits to each candidate, a point with a rank below s times the largest density in its
 //         tile; 2 to 3 ns a visit and core. 16 bytes a tile.
 // Promise no point is kept where the density is 0.

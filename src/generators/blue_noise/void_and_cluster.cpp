@@ -53,8 +53,8 @@ struct Torus {
     std::size_t height;
     [[nodiscard]] std::size_t cells() const { return width * height; }
 
-    /// Width over height of a cell in the box; 1 if the box has equal sides, given as no
-    /// proportions.
+    /// Width over height of a cell in the box.
+    /// @param proportions sides of the box relative to the shortest; empty if all are equal
     [[nodiscard]] double stretch(const std::vector<double>& proportions) const {
         if (proportions.empty()) return 1;
         return proportions[0] / static_cast<double>(width) /
@@ -74,7 +74,7 @@ Torus torus_of(const std::vector<std::int64_t>& extents, const std::string& text
     return {static_cast<std::size_t>(extents[0]), static_cast<std::size_t>(extents[1])};
 }
 
-/// Torus with at least `cells` cells per point, squares in a box of these proportions.
+/// Torus with at least `cells` cells per point; cells are squares in a box of these proportions.
 /// @throws Error(limit)
 Torus torus_for(double points, double cells, const std::vector<double>& proportions) {
     const double longer = proportions.empty() ? 1 : std::ranges::max(proportions);

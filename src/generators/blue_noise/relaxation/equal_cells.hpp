@@ -46,7 +46,7 @@ class EqualCells {
     EqualCells(const Planar& planar, const std::optional<DensityMoments>& density,
                const std::vector<double>& rows, const RunContext& run);
 
-    /// Finds the weights, starting from the present ones, or from 0 if a site has lost its cell.
+    /// Finds the weights, starting from the current ones, or from 0 if a site has lost its cell.
     /// Sites that have no mass even then move to their places in `rescue` (n rows). Returns the
     /// largest |m_i n / total - 1|, which is above `tolerance` only after `steps` steps or because
     /// of rounding.

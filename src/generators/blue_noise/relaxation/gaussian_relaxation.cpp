@@ -75,7 +75,7 @@ struct Candidates {
     [[nodiscard]] std::size_t size() const { return places[0].size(); }
 };
 
-/// weights[j] += (x - places[j])^2
+/// Adds (x - places[j])^2 to weights[j], for every j.
 STIPPLE_WIDE void add_squares(const double* places, double x, double* weights, std::size_t count) {
     for (std::size_t j = 0; j < count; ++j) {
         const double t = places[j] - x;
@@ -91,7 +91,7 @@ STIPPLE_WIDE void to_kernels(double* weights, std::size_t count) {
     }
 }
 
-/// sum over j of (x - places[j]) weights[j]
+/// Returns the sum over j of (x - places[j]) weights[j].
 STIPPLE_WIDE double pull(const double* places, double x, const double* weights, std::size_t count) {
     double parts[sum_lanes] = {};
     for (std::size_t j = 0; j < count; j += sum_lanes)
@@ -114,7 +114,7 @@ STIPPLE_WIDE void add_images(const double* places, double x, double side, int im
 
 using Factors = std::array<const double*, relaxation_dimensions>;
 
-/// sum over j of the product of the j-th factors
+/// Returns the sum over j of the product of the j-th factors of all axes.
 STIPPLE_WIDE double sum_of_products(const Factors& factors, std::size_t dimension,
                                     std::size_t count) {
     double parts[sum_lanes] = {};
