@@ -3,8 +3,8 @@
 // The star discrepancy in two and three dimensions over all boxes that end at coordinates of
 // points,
 //
-//     open    V - c / n     c points with all coordinates below the corner's
-//     closed  c / n - V     c points with no coordinate above it
+//     open    V - c / n     c = number of points with all coordinates below those of the corner
+//     closed  c / n - V     c = number of points with no coordinate above those of the corner
 //
 // where V is the product of the corner's coordinates. Boxes are searched plane by plane along the
 // first axis, with the counts of one plane in memory. With weights w_j >= 0 a box is weighted by
@@ -55,7 +55,7 @@ inline bool any_above(const float* values, const float* counts, float reach, flo
 }
 
 /// Appends the places of a plane with values[k] * reach - counts[k] * share > least, for k in
-/// [first, last). Tests whole rows first, since most have none.
+/// [first, last). Tests whole rows first, since most rows have no such place.
 STIPPLE_WIDE void find_above(const Plane& plane, const float* values, float least,
                              std::size_t first, std::size_t last, std::vector<Place>& places) {
     constexpr std::size_t lanes = 32;
@@ -124,8 +124,8 @@ class AnchoredObjective final : public Objective {
         std::vector<Hit> hits;
     };
 
-    static constexpr double reach = 7;  ///< boxes with weights below e^-reach in the soft maximum
-                                        ///< are ignored
+    /// Boxes with weights below e^-reach in the soft maximum are ignored.
+    static constexpr double reach = 7;
 
     /// Weight of an axis for a box that ends at `place` on it.
     [[nodiscard]] float weight(std::size_t axis, std::size_t place) const {

@@ -3,8 +3,8 @@
 // Discrepancies and dispersion in any dimension over a pool of boxes near the worst. Each box is
 // given by the points at its sides and moves with them:
 //
-//     open    V - c / n     c points inside        (dispersion: V if c = 0)
-//     closed  c / n - V     c points inside or on a side
+//     open    V - c / n     c = number of points inside             (dispersion: V if c = 0)
+//     closed  c / n - V     c = number of points inside or on a side
 //
 // Each evaluation runs ascents from boxes of the pool, from variants of them and from random boxes,
 // to find new boxes for the pool. An ascent replaces a box's interval on one axis after the other
@@ -43,7 +43,8 @@ STIPPLE_WIDE void keep_within(const double* x, double low, double high, std::siz
         inside[i] &= std::int64_t{x[i] >= low} & std::int64_t{x[i] <= high};
 }
 
-/// Points at the sides of a box on one axis; `rim` stands for 0 below and for 1 above.
+/// Indices of the points at the lower and upper side of a box on one axis; the index `rim` means 0
+/// for the lower side and 1 for the upper.
 struct Sides {
     std::uint32_t lower;
     std::uint32_t upper;
@@ -120,8 +121,8 @@ class BoxObjective final : public Objective {
     }
 
   private:
-    static constexpr double reach = 7;  ///< boxes with weights below e^-reach in the soft maximum
-                                        ///< are ignored
+    /// Boxes with weights below e^-reach in the soft maximum are ignored.
+    static constexpr double reach = 7;
     static constexpr std::size_t ascents = 12;
     static constexpr std::size_t most_boxes = 1000;
 
@@ -193,8 +194,8 @@ class BoxObjective final : public Objective {
         for (std::size_t j = 0; j < d_; ++j) product *= length(box, j);
         return product;
     }
-    /// Weight of an axis. A box that ends at 1 also represents those ending just below if these
-    /// weigh more.
+    /// Weight of an axis. A box that ends at 1 also represents the boxes that end just below 1, if
+    /// the weight of these is larger.
     [[nodiscard]] double weight(std::size_t j, bool at_rim) const {
         return at_rim ? std::max(1.0, weights_[j]) : weights_[j];
     }
@@ -298,7 +299,8 @@ class BoxObjective final : public Objective {
     PoolBox random_box() {
         PoolBox box{.open = empty_ || draws_.below(2) == 0};
         for (std::size_t j = 0; j < d_; ++j) {
-            // maximum: near 1, where the worst boxes of many dimensions end
+            // An anchored box ends at the larger of two random coordinates, because the worst boxes
+            // of many dimensions end near 1.
             const std::uint64_t a = draws_.below(n_ + 1);
             const std::uint64_t b = draws_.below(n_ + 1);
             const auto at = [&](std::uint64_t k) { return k == n_ ? rim_ : order_[j][k]; };

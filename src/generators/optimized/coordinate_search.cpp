@@ -67,9 +67,9 @@ class Adam {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Returns the last set of a descent or, if a stop ends it and the run keeps the best, the lowest
-/// set so far. If the value is above `enough`, there are no rows and the value may be too small,
-/// because computing a certain value can take longer than the descent.
+/// Returns the last set of a descent or, if a stop ends the descent and the run keeps the best, the
+/// set of least value so far. If that value is above `enough`, the result has no rows and its value
+/// may be too small, because computing a certain value can take longer than the descent.
 OptimizedRows descend(std::vector<double> rows, const CoordinateSearch& search,
                       const Schedule& schedule, double enough, const RunContext& run) {
     const std::unique_ptr<Objective> objective = search.objective();

@@ -6,8 +6,8 @@
 //     d/dx_ij  =  -2/n f_j'(x_ij) prod_{l != j} f_l(x_il)
 //                 + 2/n^2 sum_k d_1 K_j(x_ij, x_kj) prod_{l != j} K_l(x_il, x_kl),
 //
-// where the slope of |x - y| at x = y is 0. An even order of points puts after m points p the point
-// x that minimizes
+// where the slope of |x - y| at x = y is 0. In an even order of points, the first m points p are
+// followed by the point x that minimizes
 //
 //     2 sum_p K(x, p) + K(x, x) - 2 (m + 1) int K(x, y) dy.
 #include <algorithm>
@@ -70,7 +70,7 @@ std::vector<Factor> factors_of(l2::Kind kind, const l2::AxisWeights& weights,
 
 constexpr std::size_t lanes = 64;  ///< points per block
 
-/// Factors of one point with a block of others, axis by axis, and sums derived from them.
+/// Factors between one point and a block of others, axis by axis, and sums of their products.
 struct Row {
     std::vector<double> factors;    ///< `lanes` factors for each axis
     std::vector<double> before;     ///< products of the factors of the preceding axes

@@ -20,9 +20,9 @@ namespace stipple::optimized {
 struct OptimizedRows {
     std::vector<double> rows;
     double value = 0;
-    bool stopped = false;  ///< true if the budget was not used up; only for a run that keeps the
-                           ///< best
-    bool certain = true;   ///< whether the value is exact, not possibly too small
+    /// True if a stop ended the search before its budget; only for a run that keeps the best.
+    bool stopped = false;
+    bool certain = true;  ///< whether the value is exact, not possibly too small
 };
 
 class Objective {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Sets of a given number of points that a search makes as even as it can, by one measure:
+// Sets of a given number of points, made as even as possible by a search for one measure:
 //
 //     star, extreme, periodic   the largest local discrepancy of a kind of boxes
 //     dispersion                the volume of the largest empty box
@@ -9,7 +9,9 @@
 // The method depends on the measure and the numbers of axes d and points n:
 //
 //     d = 1        (i + 1/2) / n, or for the dispersion (i + 1) / (n + 1): optimal
-//     n = 1        for boxes at the origin x + x^d = 1, for other boxes the centre: optimal
+//     n = 1        (x, ..., x) with x + x^d = 1 for boxes at the origin, the centre for other
+//     boxes:
+//                  optimal
 //     star, d = 2  a search over the orders of the points by x and by y, each solved exactly
 //                  (planar_order.hpp, order_search.hpp)
 //     others       descents along the gradient from many sets (coordinate_search.hpp), over all
@@ -232,8 +234,8 @@ Start start_without_file(const Plan& plan, const Values& options, const RunConte
                 generate(spec, {.count = n, .dimension = d, .seed = seed + i}, {}, quiet);
             return std::vector<double>(points.flat().begin(), points.flat().end());
         };
-    // Alternates between lattices and other sets, because it depends on the count which ends lower.
-    // For the periodic discrepancy in the plane, all starts are of the other kind.
+    // Alternates between lattices and other sets, because the count decides which of them end
+    // lower. For the periodic discrepancy in the plane, no start is a lattice.
     const bool lattices = d > 2 || (d == 2 && options[objective] != "periodic");
     return [=, quiet = silent(run)](std::uint64_t i, SplitMix64& draws) {
         if (lattices && i % 2 == 0) return lattice_rows(n, d, draws, quiet);
@@ -322,7 +324,7 @@ Bounds weighted_star(const PointSet& points, const std::vector<double>& weights,
     return worst;
 }
 
-/// Value of the points, as the analyzers compute it.
+/// Bounds of the value of the points, as the analyzers compute it.
 /// @param work comparisons that a search for the worst box may take
 Bounds judged(const PointSet& points, const Values& options, std::uint64_t work,
               const RunContext& run) {

@@ -4,13 +4,12 @@
 //
 // Starts    the orders of (i, i phi + s mod 1), phi the golden section, and of golden lattices,
 //           stretched and cut out at random. All are solved. The best is used first, then random
-//           ones of them, changed by some swaps.
+//           others, changed by some swaps.
 // Descents  swaps of neighbours by x or by y that do not raise the level, about a third of them on
 //           the critical cycle, until 20 n swaps in a row gain nothing. Swaps that keep the level
 //           are essential.
-// Kicks     the best descents are disturbed by up to 20 swaps that raise the level by up to a
-//           fifth. They descend again and are kept if they end no higher: 32 of them, then 16, 8,
-//           4.
+// Kicks     the best descents, 32, then 16, 8 and 4, are disturbed by up to 20 swaps that raise the
+//           level by up to a fifth. They descend again, and the result is kept if it is no higher.
 //
 // Cost      the budget, in steps (comparisons of a bound): 1 to 2.5 10^9 a second on one core.
 // Promise   depends only on the count, the seed and the budget, not on the number of threads.

@@ -180,7 +180,7 @@ PlanarOrder::Node PlanarOrder::pop() {
     return node;
 }
 
-/// Starts a new era, which forgets which node bounds which.
+/// Starts a new era: forgets all entries of from_, the node that bounds each node.
 void PlanarOrder::begin() {
     if (++era_ != 0) return;
     std::ranges::fill(moved_in_, 0);
@@ -224,7 +224,7 @@ bool PlanarOrder::relax_y(std::size_t j, Node node) {
                   : move(0, node, true, 1 / y_[j]);
 }
 
-/// Moves coordinates until all bounds hold, a cycle closes or the attempt is given up.
+/// Moves coordinates until all bounds hold, a cycle of bounds closes or the attempt is given up.
 PlanarOrder::Outcome PlanarOrder::relax() {
     constexpr std::uint64_t turns_at_a_time = 64;
     while (first_ != last_) {
@@ -331,8 +331,8 @@ void PlanarOrder::lower() {
 
 // ---------------------------------------------------------------- swaps
 
-/// Enforces the bounds that a swap has tightened: those of closed boxes if these hold more points,
-/// of open ones if these hold fewer.
+/// Enforces the bounds that a swap has tightened: those of closed boxes if the boxes changed hold
+/// more points, those of open boxes if they hold fewer.
 void PlanarOrder::tighten(const Swap& swap, bool more) {
     const auto [by_x, p] = swap;
     if (by_x == more) return push(static_cast<Node>(by_x ? p : n_ + p + 1));
