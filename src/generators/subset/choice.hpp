@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Ways to choose n of N points, or to split all of them, each described in its source. Each depends
-// only on the points and its arguments, not on the number of threads.
+// Ways to choose n of N points, or to split all N, each described in its source. Results depend
+// only on the points and the other arguments, not on the number of threads.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +45,7 @@ struct StarBounds {
     double upper = 1;
 };
 
-/// Star discrepancy of the rows, exact unless that takes minutes.
+/// Star discrepancy of the points at these rows, exact unless that takes minutes.
 StarBounds star_discrepancy(const PointSet& points, const Rows& rows, const RunContext& run);
 
 /// @param start initial rows

@@ -2,8 +2,8 @@
 //
 // Partitions all points into sets of n that are similarly even: the sum of their squared maximum
 // mean discrepancies is made small. The points are dealt out at random; then pairs of sets trade
-// points, as in a round-robin tournament. If two sets A and B exchange a point i of
-// A for a point j of B, the sum of K within the sets grows by
+// points, as in a round-robin tournament. If two sets A and B exchange a point i of A for a point j
+// of B, the sum of K within the sets grows by
 //
 //     2 (K_ii + K_jj - 2 K_ij - D_i + D_j),    D_x = sum_(a in A) K(x, a) - sum_(b in B) K(x, b),
 //

@@ -8,9 +8,9 @@
 // so the worst boxes of all measured subsets are kept, each with its points as bits. They rule out
 // most exchanges quickly, for all N possible replacements of a member at once. The most promising
 // of the remaining exchanges are measured by the exact search. The best is made if it improves the
-// set; the worst boxes of the others are kept, too. If no exchange remains, some are made at random
-// that keep all boxes nearly as good, and the search continues from there, or from the best set if
-// that leads nowhere.
+// set; the worst boxes of the other resulting sets are kept, too. If no exchange remains, some
+// random ones are made that keep all boxes nearly as good. The search continues from there, or from
+// the best set if that leads nowhere.
 //
 // Cost    the measurements: in 6-D 2 to 50 ms each for 30 to 240 points. Some 2^12 N / 8 bytes.
 // Promise depends only on the points, the start, the seed and the number of measurements.
@@ -89,7 +89,7 @@ Measured measure(const PointSet& set, double enough, const RunContext& run) {
     return told(found.worst, true);
 }
 
-/// Boxes that were the worst of some set, with their excess for the present set.
+/// Boxes that were the worst of some set, with their excess for the current set.
 class BadBoxes {
   public:
     BadBoxes(const PointSet& points, std::size_t n, const RunContext& run)
@@ -161,7 +161,7 @@ class BadBoxes {
         Side side;
         double volume;
         Bits members;
-        double excess = 0;  ///< signed discrepancy of the present set, times n
+        double excess = 0;  ///< signed discrepancy of the current set, times n
         std::uint64_t used = 0;
     };
 
@@ -231,7 +231,7 @@ class StarExchanges {
   private:
     static constexpr std::size_t at_once = 8;
 
-    /// Measures the present set and counts its points in the boxes.
+    /// Measures the current set and counts its points in the boxes.
     void settle() {
         in_.assign((points_.count() + 63) / 64, 0);
         for (const std::size_t i : now_.members) flip(in_, i);
@@ -278,7 +278,7 @@ class StarExchanges {
         boxes_.take(in_);
     }
 
-    /// Some exchanges that no box rules out, chosen for the least excess in the boxes.
+    /// Some exchanges that no box rules out: those with the least excess in the boxes.
     std::vector<Exchange> promising(double bound) {
         constexpr std::size_t some = 16 * at_once;
         std::vector<Exchange> found;
@@ -340,7 +340,7 @@ class StarExchanges {
     std::uint64_t drawn_ = 0;
     std::uint64_t done_ = 0;  ///< number of measured sets
     BadBoxes boxes_;
-    Bits in_;  ///< members of the present set
+    Bits in_;  ///< members of the current set
     Present now_;
     Present best_;
 };
