@@ -131,7 +131,7 @@ struct Units {
     }
 
   private:
-    /// Number that is g modulo q, and 1 modulo modulus / q.
+    /// Number that is congruent to g modulo q, and to 1 modulo modulus / q.
     [[nodiscard]] std::uint64_t lift(std::uint64_t g, std::uint64_t q) const {
         const std::uint64_t rest = modulus / q;
         std::uint64_t number = 1;
@@ -150,7 +150,7 @@ struct Units {
     }
 };
 
-/// Part of E from the i with gcd(i, n) = n / e.
+/// Part of E(z) that sums over the i with gcd(i, n) = n / e.
 class Part {
   public:
     Part(std::uint64_t n, std::uint64_t e) : units_(e), step_(n / e), correlation_(units_.shape) {

@@ -29,8 +29,8 @@ void CyclicCorrelation::take_kernel() {
 
 void CyclicCorrelation::correlate() {
     transform_->forward();
-    for (std::size_t k = 0; k < halves_; ++k) {  // product of the conjugate and the kernel's
-                                                 // spectrum
+    // Product of the conjugate spectrum and that of the kernel.
+    for (std::size_t k = 0; k < halves_; ++k) {
         const double re = spectrum_[2 * k];
         const double im = spectrum_[2 * k + 1];
         const double kernel_re = kernel_[2 * k];

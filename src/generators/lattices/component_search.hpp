@@ -6,8 +6,9 @@
 //     E(z) = sum_a p_a kernel[a + b],    a and b exponents of the points' number and of z
 //
 // in a product of cyclic groups: a correlation, which Fourier transforms give for all z at once.
-// Transforms round differently on different machines, so they only nominate candidates. All that
-// may be the best, given the rounding errors, are compared by plain sums in a fixed order.
+// Transforms round differently on different machines, so they only nominate candidates. All
+// components that may be the best, given the rounding errors, are compared by plain sums in a fixed
+// order.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +37,7 @@ class CyclicCorrelation {
 
     [[nodiscard]] std::span<double> values() { return {values_.get(), size_}; }
 
-    /// Makes the present values the kernel.
+    /// Makes the current values the kernel.
     void take_kernel();
 
     /// values[b] = sum over a of values[a] kernel[a + b], up to rounding.

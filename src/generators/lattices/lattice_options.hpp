@@ -49,9 +49,9 @@ struct VectorFile {
     std::uint64_t modulus = 0;   ///< polynomial in base 2; 0: not a polynomial lattice
 };
 
-/// Contents of the file in --vector-file; empty without it. Reads plain vectors,
+/// Contents of the file in --vector-file; empty without this option. Reads plain vectors,
 /// `# lattice` and `# plattice` of LDData, and LatNet Builder's `# Parameters for a lattice rule`
-/// and `... a polynomial lattice rule`, which differ by their first lines.
+/// and `... a polynomial lattice rule`. The first line tells these formats apart.
 /// @throws Error(input) naming file, line and column, also for a lattice of the other kind
 /// Source  github.com/QMCSoftware/LDData, README.md
 VectorFile vector_in_file(const Values& options, bool polynomial);

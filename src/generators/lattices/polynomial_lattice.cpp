@@ -16,7 +16,7 @@
 //         times as long a point where 2^m - 1 is a prime, as for m = 13, 17, 19.
 // Promise unscrambled coordinates are exact multiples of 2^-m. All 2^m points are closed under XOR
 //         of their digits; with p irreducible each of their coordinates takes every value once. The
-//         search gives the same vector on every machine.
+//         search finds the same vector on every machine.
 // Source  H. Niederreiter, Random Number Generation and Quasi-Monte Carlo Methods, SIAM 1992,
 //         section 4.4, doi:10.1137/1.9781611970081; cbc: J. Baldeaux et al., Numer. Algorithms 59
 //         (2012) 403-431, doi:10.1007/s11075-011-9497-y.
