@@ -10,13 +10,13 @@
 // intervals are left to chance.
 //
 // Coordinate 0 of point i is the radical inverse of i; coordinate 1 is a random binary matrix,
-// another one for every seed, times the digits of i. Then both get nested uniform scrambling, which
-// permutes elementary intervals. The promises depend on minors of the matrix: for every m, the
-// block of rows 1..r and columns m-r+1..m is regular for r = m (strips) and for r = m/2 (squares),
-// or for odd m for both r = (m-1)/2 and (m+1)/2 (opposite quarters). Given the earlier columns,
-// each of these conditions requires that one sum of the new column's entries is 1, and the
-// conditions do not contradict each other. The column is drawn until they hold, at most 8 times on
-// average.
+// another one for every seed, times the digits of i. Then both coordinates get nested uniform
+// scrambling, which permutes elementary intervals. The promises depend on blocks of the matrix: for
+// every m, the block of rows 1..r and columns m-r+1..m is regular for r = m (strips) and for r =
+// m/2 (squares), or for odd m for both r = (m-1)/2 and (m+1)/2 (opposite quarters). Given the
+// earlier columns, each of these conditions requires that one sum of the new column's entries is 1,
+// and the conditions do not contradict each other. The column is drawn until they hold, at most 8
+// times on average.
 //
 // Shape   2 dimensions, indices below 2^53.
 // Cost    O(n), no memory beyond 4 kB; drawing the matrix takes a fraction of a millisecond.

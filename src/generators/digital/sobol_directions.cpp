@@ -93,9 +93,9 @@ Initializer read_line(TokenFile& file, std::size_t dimension, bool bare) {
     return initial;
 }
 
-/// Reads LatNet Builder's header of numbers, each on a line with a comment: the dimension, perhaps
-/// two numbers of interlacing, perhaps the digits of the number of points. Returns the interlacing
-/// factor.
+/// Reads LatNet Builder's header, one number on each line with a comment: the dimension, then two
+/// optional numbers for interlacing, and optionally the number of digits of the number of points.
+/// Returns the interlacing factor.
 std::size_t take_header(TokenFile& file) {
     std::size_t alpha = 1;
     while (file.comment_has("#")) {
@@ -108,8 +108,8 @@ std::size_t take_header(TokenFile& file) {
     return alpha;
 }
 
-/// Interlaces the digits of alpha coordinates at a time: the first of each, then the second of
-/// each, ...
+/// Interlaces the digits of alpha coordinates at a time: the first digit of each coordinate, then
+/// the second digit of each, ...
 BinaryMatrices interlaced(const BinaryMatrices& matrices, std::size_t alpha) {
     BinaryMatrices woven{matrices.dimension / alpha, {}};
     for (std::size_t at = 0; at < matrices.columns.size(); at += alpha) {
