@@ -4,8 +4,8 @@
 //
 //     (s, phi_2(i), phi_3(i), ...)    with the sweep    s = i / n    or    s = (2 i + 1) / 2n,
 //
-// phi_b being the radical inverse in base b. The sweep is the first coordinate and starts at 0,
-// unless asked otherwise: it may be the last one, and start at 1 / 2n.
+// phi_b being the radical inverse in base b. By default, the sweep is the first coordinate and
+// starts at 0; options make it the last one, or let it start at 1 / 2n.
 //
 // Shape   n x d for d <= 1001; n <= 2^53.
 // Cost    O(n d).

@@ -105,8 +105,8 @@ Wide fraction(double x) {
     return x < 0 ? -bits : bits;
 }
 
-/// Fractional part of an integer's square root: that of the root as a double, plus the double's
-/// error.
+/// Fractional part of the square root of an integer: that of the root rounded to a double, plus the
+/// rounding error.
 Wide fraction_of_root(std::uint64_t p) {
     const auto square = static_cast<double>(p);
     const double root = std::sqrt(square);
