@@ -37,7 +37,7 @@ constexpr Param<Choice> cell{.name = "cell",
                              .choices = "random|center",
                              .help = "Position of a point in its cell"};
 
-/// Moves numbers from [0, 1) into their cells, or to the middles of these.
+/// Moves numbers from [0, 1) into their cells, or to the middles of the cells.
 void place(bool centered, const Strata& strata, double* x, std::size_t stride) {
     centered ? place_in_middles(strata, x, stride) : place_in_strata(strata, x, stride);
 }
@@ -65,7 +65,7 @@ void place_in_rows(std::uint64_t n, bool centered, std::uint64_t first, std::spa
     }
 }
 
-/// Puts points first, first + 1, ... into boxes, of which there are sides[k] along axis k.
+/// Puts points first, first + 1, ... into boxes; sides[k] is the number of boxes along axis k.
 void place_in_boxes(std::span<const std::uint64_t> sides, bool centered, std::uint64_t first,
                     std::span<double> rows) {
     const std::size_t d = sides.size();

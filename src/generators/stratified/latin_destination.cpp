@@ -88,7 +88,8 @@ void count_outcomes(const Destination& destination, LatinPlaces& places, search:
     }
 }
 
-/// Exchanges levels to satisfy the constraints; returns how many points of the start still do not.
+/// Exchanges levels to satisfy the constraints; returns the number of points that still violate
+/// them.
 std::size_t unsatisfied(const Plan& plan, search::Search& task, const RunContext& run) {
     constexpr std::uint64_t stream = 8;  // a stream used nowhere else
     search::Exchanges exchanges(task.start, task.rules);

@@ -43,7 +43,7 @@ class OrthogonalPoints {
     }
 
   private:
-    /// Level of a row in a column, and the number of the row among those of that level.
+    /// Level of a row in a column, and the number of the row among the rows of that level.
     struct Entry {
         std::uint64_t level;
         std::uint64_t rest;
@@ -74,7 +74,7 @@ class OrthogonalPoints {
             const std::size_t partner = (column ^ 1) <= s ? column ^ 1 : 0;
             return {level, value(partner, row)};
         }
-        // Given the level, the other coefficients determine the one that is left out.
+        // Given the level, the other coefficients determine the one that is left out of the number.
         return {level, column == 1 ? row % powers_[shape_.strength - 1] : row / s};
     }
 

@@ -21,8 +21,8 @@ enum class StratifiedStream : std::uint64_t {
     first_of_offsets = std::uint64_t{1} << 31  ///< one stream per coordinate
 };
 
-// A block of points has `block_numbers` coordinates, so that it fits the cache, but at least
-// `least_block` points, so that the work per block and coordinate pays off.
+// A block of points has `block_numbers` coordinates, so that it fits into the cache, but at least
+// `least_block` points, so that the fixed work per block and coordinate pays off.
 constexpr std::size_t block_numbers = 4096;
 constexpr std::size_t least_block = 256;
 

@@ -62,8 +62,8 @@ double place_in_stratum(const Plan& plan, bool centered, std::size_t coordinate,
 /// Random numbers for a unit's own use; streams are numbered from 0.
 Rng stratified_numbers(const Plan& plan, std::uint64_t stream);
 
-/// Number of columns for `count` points: that of --shape; or the largest divisor of the count that
-/// is in [sqrt(count / 2), sqrt(count)]; or floor(sqrt(count)) if there is none.
+/// Number of columns for `count` points: that of --shape, if given; otherwise the largest divisor
+/// of the count in [sqrt(count / 2), sqrt(count)]; floor(sqrt(count)) if there is no such divisor.
 std::uint64_t jitter_columns(std::uint64_t count, const Values& options);
 
 /// Plan with the product of the sides as count, and their number as dimension.

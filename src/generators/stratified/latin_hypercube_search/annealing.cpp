@@ -15,8 +15,8 @@ namespace {
 
 constexpr double piece = 1024;         // trials between two changes of the accepted fraction
 constexpr double gain = 0.02;          // change of the temperature's logarithm per accepted trial
-constexpr double polish_from = 0.8;    // fraction of trials; then a search beyond the value reached
-constexpr double polish_share = 2e-3;  // accepted fraction at the start of that search
+constexpr double polish_from = 0.8;    // fraction of the trials after which polishing begins
+constexpr double polish_share = 2e-3;  // accepted fraction at the start of polishing
 
 }  // namespace
 

@@ -47,7 +47,7 @@ class Exchanges {
     void make(const Exchange& exchange);
     [[nodiscard]] const Design& design() const { return design_; }
 
-    /// Exchanges levels until all points are feasible; returns how many still are not.
+    /// Exchanges levels until all points are feasible; returns the number of points that are not.
     std::size_t make_feasible(SplitMix64& draws, const RunContext& run);
 
     /// Makes all points feasible, then makes random exchanges, `times` as many as there are levels.
@@ -76,7 +76,7 @@ class Trail {
 
     void made(const Exchange& exchange);
 
-    /// Marks the present design as the best.
+    /// Marks the current design as the best.
     void mark(const Design& now);
 
     const Design& best();
@@ -125,7 +125,7 @@ class Annealing {
     double done_ = 0;
     double next_ = 0;  ///< trial at which the accepted fraction changes next
     double share_;
-    double cooling_;  ///< change of the accepted fraction from piece to piece, a factor
+    double cooling_;  ///< factor by which the accepted fraction changes from piece to piece
     bool polishing_ = false;
     bool over_ = false;
     double temperature_ = 0;

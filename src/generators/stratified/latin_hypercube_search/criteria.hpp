@@ -58,7 +58,7 @@ class Criterion {
     Criterion& operator=(const Criterion&) = delete;
     virtual ~Criterion() = default;
 
-    /// Change of the energy if rows a, a point, and b exchange their levels along a coordinate.
+    /// Change of the energy if rows a and b exchange their levels along a coordinate; a is a point.
     virtual double change(std::size_t coordinate, std::size_t a, std::size_t b) = 0;
 
     /// Makes the exchange; `change` is the result of change().
@@ -76,8 +76,8 @@ class Criterion {
 
     [[nodiscard]] virtual Score score() const = 0;
 
-    /// Returns the score, or `other` if the score cannot be below it, which avoids visiting all
-    /// pairs.
+    /// Returns the score, or `other` if the score cannot be below `other`; this test avoids
+    /// visiting all pairs.
     virtual Score score_below(const Score& other) = 0;
 };
 
@@ -92,7 +92,8 @@ std::unique_ptr<Criterion> correlation_criterion(const Design& design, const Rul
 /// Bytes that a criterion needs.
 double criterion_memory(const Objective& objective, const Design& design);
 
-/// Typical difference of two levels, and mean squared distance of two points; used as divisors.
+/// Typical difference of two levels, and below the mean squared distance of two points. Both are
+/// used as divisors.
 double usual_difference(std::size_t points);
 double usual_square(std::size_t points, std::size_t dimension);
 

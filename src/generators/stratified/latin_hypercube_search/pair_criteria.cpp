@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Criteria that are sums over pairs of points. Every pair has a number, a squared distance or a
-// product, to which each coordinate contributes, and from which the pair's energy follows. Rows are
-// padded to whole vectors with numbers of zero energy.
+// product. Each coordinate contributes to this number, and the pair's energy is a function of it.
+// Rows are padded to whole vectors with numbers of zero energy.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -87,8 +87,8 @@ STIPPLE_INLINE void raise(double* r, std::size_t n, int power) {
     for (std::size_t l = 0; l < n; ++l) r[l] = result[l];
 }
 
-/// scale / squared distance. Coinciding points, which discrete axes may cause, count as half a
-/// level apart.
+/// Returns scale / squared distance. Coinciding points, which discrete axes may cause, count as
+/// half a level apart.
 STIPPLE_INLINE double over(double scale, Level square) {
     return scale / std::max(0.25, static_cast<double>(square));
 }
@@ -119,7 +119,8 @@ STIPPLE_WIDE double power_change(const Row<Level>& row, int power, double scale)
                           : powers_by(row, power, scale, Change(row));
 }
 
-/// 1 + |z|/2 + |z'|/2 - |z - z'|/2 for z = 2 a unit, z' = 2 b unit.
+/// Factor of the centered discrepancy, 1 + |z|/2 + |z'|/2 - |z - z'|/2, for z = 2 a unit and
+/// z' = 2 b unit.
 STIPPLE_INLINE double centered_factor(double a, double b, double unit) {
     return 1 + (std::abs(a) + std::abs(b) - std::abs(a - b)) * unit;
 }
@@ -141,7 +142,7 @@ STIPPLE_INLINE double gap_between(Level a, Level b, double far, double more) {
     return std::max(0.5, difference + more);
 }
 
-/// @param far distance of two categories; 0: by the places
+/// @param far distance of two categories; 0: the axis has none, and places give the distance
 STIPPLE_INLINE double projections_by(const Row<double>& row, double far, double more) {
     return lane_sum(row.size, [&](std::size_t j) {
         const double now = row.pairs[j];
@@ -288,7 +289,7 @@ class Singles {
     std::vector<double> mean_;
 };
 
-/// Replaces Singles in measures without such energies.
+/// Replaces Singles in measures without energies of single points.
 class NoSingles {
   public:
     template <class Measure>

@@ -45,7 +45,7 @@ std::vector<double> stages_of(double trials, double usual, std::size_t points) {
     constexpr double few = 96;
     std::vector<double> stages{few};
     const double least = std::min(usual / 8, 64 * static_cast<double>(points));
-    double sum = usual;  // total trials up to a stage of sum / 2 trials
+    double sum = usual;  // total trials up to the end of a stage of sum / 2 trials
     while (sum / 2 >= least) sum /= 2;
     for (; sum <= trials; sum *= 2) stages.push_back(sum / 2);
     return stages;
@@ -278,7 +278,7 @@ Result best_of_all(const Objective& objective, const Design& start, const RunCon
 }  // namespace
 
 double designs_to_try(const Design& start) {
-    constexpr std::size_t most_points = 11;  // whose changes take 20 MB
+    constexpr std::size_t most_points = 11;  // its n! / 2 plain changes take 20 MB
     if (start.dimension == 1) return 1;
     if (start.points > most_points) return std::numeric_limits<double>::infinity();
     double orders = 1;
