@@ -82,8 +82,8 @@ Plan plan_in_box(const Request& request, const Values& options) {
 }
 
 std::vector<double> proportions_of(const Plan& plan) {
-    constexpr double alike = 1 + 1e-9;  // tolerance: sides of squares far from the origin are
-                                        // rounded
+    // Tolerance: sides of squares far from the origin are rounded.
+    constexpr double alike = 1 + 1e-9;
     if (!plan.bounds) return {};
     std::vector<double> sides;
     for (std::size_t k = 0; k < plan.bounds->dimension(); ++k)

@@ -36,7 +36,7 @@ std::optional<DensityMap> given_density(const Values& options, const RunContext&
 /// @return 1 / sqrt(density at the new point), for a mean density of 1: the local spacing of points
 double follow(const DensityMap& map, const Box& box, double* point);
 
-/// Adds the given ones of these options to the points' provenance.
+/// Adds those of these options that are given to the points' provenance.
 void note_density(const Values& options, PointSet& points);
 
 /// Name of the given option that makes the points uneven; nullptr if there is none.

@@ -38,7 +38,7 @@ struct LowDigits {
             reversed.push_back(static_cast<std::uint32_t>(turned));
         }
     }
-    /// True if these digits of the index affect only the first t digits of the coordinate.
+    /// True if the t lowest digits of the index affect only the first t digits of the coordinate.
     [[nodiscard]] bool stay_on_top_of(const DigitMatrix& matrix) const {
         for (std::size_t r = count; r < matrix.rows; ++r)
             for (std::size_t c = 0; c < std::min(count, matrix.columns); ++c)
@@ -48,7 +48,7 @@ struct LowDigits {
 
     std::size_t block;
     std::size_t count;
-    std::vector<std::uint32_t> reversed;  ///< t digits of m < block in reverse order
+    std::vector<std::uint32_t> reversed;  ///< for each m < block: m with its t digits reversed
 };
 
 /// Nested scrambling in an odd base. If the matrices are triangular, points of a block share all

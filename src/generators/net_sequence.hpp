@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Points of given generating matrices, by the fastest method for their base and optionally
-// scrambled. The points equal those of the scramble of the same name, applied to the unscrambled
+// Points of given generating matrices, by the fastest method for their base, and optionally
+// scrambled: the result equals that of the scramble of the same name, applied to the unscrambled
 // points.
 #pragma once
 
