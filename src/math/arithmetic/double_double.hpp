@@ -17,7 +17,7 @@
 
 namespace stipple {
 
-/// high + low, with |low| at most half a unit in the last place of high.
+/// The number high + low, with |low| at most half a unit in the last place of high.
 struct DoubleDouble {
     double high = 0;
     double low = 0;
