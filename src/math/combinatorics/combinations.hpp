@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Combinations of k of n things, c_1 < ... < c_k, numbered from 0 in order of their largest
-// element, then the second largest: {0,1}, {0,2}, {1,2}, {0,3}... So the numbers do not depend on
-// n.
+// element, then the second largest: {0,1}, {0,2}, {1,2}, {0,3}... So the number of a combination
+// does not depend on n.
 //
 //     number of a combination  =  C(c_1, 1) + C(c_2, 2) + ... + C(c_k, k)
 //

@@ -42,7 +42,7 @@ class Permutation {
 
     static constexpr std::size_t rounds = 12;
 
-    /// Keys of the rounds, of `width` bits each.
+    /// Keys of the cipher's rounds, of `width` bits each.
     struct Cipher {
         int width;
         std::array<std::uint64_t, rounds> flips;
