@@ -60,7 +60,7 @@ class AffineReader {
         return true;
     }
 
-    /// Counts nested parentheses and signs during its lifetime.
+    /// Counts itself as one more level of nested parentheses or signs during its lifetime.
     struct Depth {
         explicit Depth(std::size_t& depth) : count(depth) {
             if (++count > 200) throw TooDeep();

@@ -6,8 +6,8 @@
 //
 // Supported are + - * / and parentheses if one factor of each product and all divisors are
 // constant, one of < <= > >= between two sums, and several such inequalities joined by &&.
-// Constants may be any formula without variables: sqrt(2)/3. < and <= differ only between
-// constants.
+// Constants may be any formula without variables: sqrt(2)/3. The operators < and <= differ only if
+// both sides are constant.
 #pragma once
 
 #include <optional>

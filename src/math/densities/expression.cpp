@@ -31,7 +31,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double whole_turn = 2 * std::numbers::pi;
 
-// Functions of formulas: those of src/math, extended to arguments that these do not accept.
+// Functions for formulas: the functions of src/math, extended to arguments outside their domains.
 
 CosSin turned(double x) {
     if (!std::isfinite(x)) return {nan, nan};
@@ -361,8 +361,8 @@ struct Word {
     bool quoted;
 };
 
-/// Finds the names and words in a formula and marks it for muParser: each quoted text is replaced
-/// by a variable or a number, padded to keep the columns.
+/// Finds the names and words in a formula and rewrites it for muParser: each quoted text is
+/// replaced by a variable or a number, padded so that the columns in messages stay right.
 class NameReader {
   public:
     NameReader(std::string_view option, std::string_view text, const FormulaNames& names)

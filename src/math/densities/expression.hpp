@@ -51,8 +51,8 @@ class Expression {
     /// @throws Error(usage) "--OPTION: 'TEXT', column N: what is wrong; what is expected"
     Expression(std::string_view option, std::string_view text, std::size_t dimension);
 
-    /// Formula in named coordinates. Names are quoted unless they are valid variable names ("cross
-    /// section"), and so are the words of coordinates: material == "steel".
+    /// Formula in named coordinates. Names that are not valid variable names are quoted ("cross
+    /// section"), and so are the words for values of coordinates: material == "steel".
     /// @throws Error(usage) as above
     Expression(std::string_view option, std::string_view text, const FormulaNames& names);
 

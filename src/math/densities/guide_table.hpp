@@ -29,7 +29,7 @@ namespace stipple {
 /// Up to this many sums are searched in a fixed number of steps.
 inline constexpr std::size_t few_sums = 16;
 
-/// Divides [0, total] into buckets.
+/// Divides [0, total] into buckets of equal width.
 class Buckets {
   public:
     Buckets() = default;
@@ -39,7 +39,7 @@ class Buckets {
     }
 
     [[nodiscard]] std::size_t of(double w) const {
-        // Conversion to signed integers takes one instruction, to unsigned ones several.
+        // Conversion to a signed integer takes one instruction, to an unsigned one several.
         return std::min(static_cast<std::size_t>(static_cast<std::int64_t>(w * scale_)), last_);
     }
 

@@ -245,8 +245,8 @@ double mass_share(double a, double b, double t) {
 LineTable::LineTable(std::vector<LinePiece> pieces) : pieces_(std::move(pieces)) {
     double top = 0;
     for (const LinePiece& piece : pieces_) top = std::max({top, piece.f_low, piece.f_high});
-    // Densities may have any scale. With the largest at 2^500, less for large ranges, masses do not
-    // overflow, and small densities keep their digits.
+    // Densities may have any scale. Scaling the largest to 2^500, less for large ranges, avoids
+    // that masses overflow, and small densities keep their digits.
     const double range = pieces_.back().x_high - pieces_.front().x_low;
     const int down = std::ilogb(top);
     const int lift = 500 - std::max(0, std::ilogb(range)) - down;
@@ -259,8 +259,8 @@ LineTable::LineTable(std::vector<LinePiece> pieces) : pieces_(std::move(pieces))
         const double before = sum;
         const double width = piece.x_high - piece.x_low;
         sums.push_back(sum += 0.5 * (piece.f_low + piece.f_high) * width);
-        // A quantile depends only on the ratio of f_low and f_high: scaled so that squares do not
-        // overflow.
+        // A quantile depends only on the ratio of f_low and f_high, so both are scaled to keep
+        // their squares from overflowing.
         int size = 0;
         std::frexp(std::max(piece.f_low, piece.f_high), &size);
         rows_.push_back({before, sum - before, std::ldexp(piece.f_low, -size),

@@ -43,7 +43,7 @@ struct LinePiece {
     double x_high;
     double f_low;
     double f_high;
-    Estimate integral = {};  ///< of f, by Boole's rule; its error is the difference from Simpson's
+    Estimate integral = {};  ///< integral of f by Boole's rule; error: difference from Simpson's
 };
 
 /// Sets values[i] to the value of a function at point i; points are stored one after another.

@@ -33,7 +33,8 @@ struct Interval {
     bool operator<(const Interval& other) const { return sum.error < other.sum.error; }
 };
 
-/// Difference of f at an end from the parabola through the three nodes next to it.
+/// Difference of f at an end of the interval from the parabola through the three nodes next to the
+/// end.
 double surprise(const std::array<double, 3>& x, const std::array<double, 3>& f, double end,
                 double value) {
     double expected = 0;

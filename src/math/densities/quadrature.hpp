@@ -33,8 +33,8 @@ Estimate gauss_kronrod(const std::function<double(double)>& f, double low, doubl
 ///
 ///     x = a + (b - a) t^2 (3 - 2 t),    dx = 6 (b - a) t (1 - t) dt
 ///
-/// removes these. Uses the 31-point rule, bisected at most four times. The returned error is far
-/// above the true one.
+/// removes these roots. Uses the 31-point rule, bisected at most four times. The returned error is
+/// far above the true one.
 Estimate integrate_smooth(const std::function<double(double)>& f, double low, double high);
 
 /// Ends of the pieces of [low, high]: the cuts inside, and low and high.
@@ -43,7 +43,7 @@ std::vector<double> ends_of(std::vector<double> cuts, double low, double high);
 /// Integral of a function that is smooth between consecutive ends, as for integrate_smooth.
 Estimate integrate_pieces(const std::function<double(double)>& f, std::span<const double> ends);
 
-/// When to stop: at this error relative to the value, or at the maximum number of intervals.
+/// Conditions to stop: an error relative to the value, or the maximum number of intervals.
 struct Effort {
     double tolerance = 1e-10;
     std::size_t most = 200;

@@ -26,7 +26,7 @@ struct SampledPatch {
     double low;
     double high;
     std::array<std::array<double, 5>, 3> f;
-    /// Largest known error of the table between the samples, if these do not suggest it.
+    /// Largest known error of the table between the samples; 0 unless it exceeds expected().
     double hidden = 0;
 
     [[nodiscard]] double at(double part) const { return low + part * (high - low); }
@@ -142,7 +142,7 @@ class StripTabulator {
             require_density(what_, std::span(points_).subspan(2 * i, 2), values_[i]);
     }
 
-    /// Evaluates f at the samples `which` (of 0 to 4) of the patch, on each of its three lines.
+    /// Evaluates f at the samples `which` (numbers from 0 to 4) on each of the patch's three lines.
     void sample(const SampledStrip& strip, SampledPatch& patch,
                 std::initializer_list<std::size_t> which) {
         points_.clear();
@@ -190,7 +190,7 @@ class StripTabulator {
         while (error_ > tolerance_ * mass_) split_worst();
     }
 
-    /// Samples f at new points until these show little mass that the table misses.
+    /// Samples f at new points until they show hardly any mass that the table misses.
     void refine_until_nothing_surprises() {
         refine_as_asked();
         for (int look = 0;; ++look) {
@@ -262,7 +262,8 @@ class StripTabulator {
                                        (place.at[1] - patch.low) / (patch.high - patch.low)));
     }
 
-    /// Stores surprises for strips made later, and adds them to the errors of existing patches.
+    /// Stores surprises for strips made later, and updates `hidden` of the patches that contain
+    /// them.
     void note(const std::vector<Surprise>& met) {
         for (const Surprise& one : met) {
             SampledPatch* const patch = patch_of(one.at).second;

@@ -15,9 +15,9 @@
 //         tolerance strips of about 20 patches if f jumps along a slanting line. 56 bytes per
 //         patch. A point takes O(1) plus the logarithm of the number of patches in a strip.
 // Beware  f is sampled on a grid of 512 x 512 points. After refinement to the tolerance it is
-//         sampled at 2^17 others, repeatedly until these show no mass that the table misses. A
-//         feature that contains a disk of 1/256 of the box's extents is found, its mass correct to
-//         3 %; a smaller one only if a sample hits it.
+//         sampled at 2^17 other points, again and again until they show no mass that the table
+//         misses. A feature that contains a disk of 1/256 of the box's extents is found, its mass
+//         correct to 3 %; a smaller one only if a sample hits it.
 // Promise a patch has no mass if f is 0 at a sample inside, so that no point is beyond a jump to 0
 //         that was sampled. x increases with xi0, and y with xi1 for given x.
 #pragma once
@@ -87,8 +87,8 @@ class StripTable {
         double left;        ///< integral of the density over y on the left side
         double right;
 
-        /// Position whose conditional density of y is used at position t (0: left side, 1: right
-        /// side): t itself, or the other side if the column has no mass at t.
+        /// Position from which the conditional density of y at position t is taken (0: left side,
+        /// 1: right side): t itself, or the other side if the column has no mass at t.
         [[nodiscard]] double side(double t) const {
             if ((1 - t) * left + t * right > 0) return t;
             return left > 0 ? 0 : 1;
