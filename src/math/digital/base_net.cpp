@@ -33,7 +33,7 @@ class Fields {
         return s - (((s + lift_) >> (Width - 1)) & low_bits(Width, 1)) * base_;
     }
 
-    /// Integer with these digits, of which the lowest field is the most significant.
+    /// Integer with these digits; the digit in the lowest field is the most significant.
     [[nodiscard]] std::uint64_t number(std::uint64_t v) const {
         std::uint64_t power = base_;
         if constexpr (Width <= 4) join<4>(v, power);
@@ -108,7 +108,7 @@ BaseNet::BaseNet(std::uint32_t base, std::size_t rows, std::size_t columns)
         for (std::uint64_t i = power; i < block_; i += power) ++ruler_[i - 1];
 }
 
-/// Packs digits with a distance of `stride`; those in the last word are aligned to its highest
+/// Packs every `stride`-th digit into words; the digits in the last word are aligned to its highest
 /// field.
 BaseNet::Words BaseNet::pack(std::span<const std::uint32_t> digits, std::size_t stride) const {
     const std::size_t fields = 64 / width_;

@@ -12,7 +12,7 @@
 // converts a word to a number.
 //
 // Shape    prime b <= 65521; indices below b^columns; only the first digits_of(b) rows are used,
-//          whose digits scrambles can recover from a double.
+//          because scrambles can recover that number of digits from a double.
 // Cost     one word per coordinate and point for upper triangular matrices, up to four for others;
 //          about four nanoseconds per word. Memory: a few columns per coordinate.
 // Promise  y is exact, and x its nearest double; never 1.
@@ -57,7 +57,7 @@ class BaseNet {
     /// @param rows, columns size of every matrix; at least 1
     BaseNet(std::uint32_t base, std::size_t rows, std::size_t columns);
 
-    /// Adds a coordinate. `shift` is added to all its points digit by digit; empty for none.
+    /// Adds a coordinate. `shift` is added to it digit by digit in all points; empty for none.
     void append(const DigitMatrix& matrix, std::span<const std::uint32_t> shift = {});
 
     [[nodiscard]] std::size_t dimension() const { return coordinates_.size(); }

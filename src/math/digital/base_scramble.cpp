@@ -79,8 +79,8 @@ inline void split(std::uint64_t random, std::size_t depth, std::uint64_t key, st
     high = static_cast<std::uint32_t>(x >> 32);
 }
 
-/// (whole + random) / power, inside (whole, whole + 1) / power by a margin larger than the rounding
-/// error.
+/// Returns (whole + random) / power, inside (whole, whole + 1) / power by a margin larger than the
+/// rounding error.
 inline double inside(std::uint64_t whole, std::uint64_t random, Wide power) {
     if (power > digits_limit) return ratio(2 * Wide{whole} + 1, 2 * power);
     const auto length = static_cast<double>(static_cast<std::uint64_t>(power));
@@ -97,7 +97,7 @@ std::vector<std::uint32_t> random_digits(const Rng& rng, std::uint64_t first, st
     return digits;
 }
 
-/// digits[0] / base + digits[1] / base^2 + ...
+/// Returns digits[0] / base + digits[1] / base^2 + ...
 double fraction(std::span<const std::uint64_t> digits, std::uint64_t base) {
     Wide numerator = 0;
     Wide power = 1;
@@ -240,7 +240,7 @@ struct BaseOwen::Stretch {
 };
 
 /// Appends to each image of a stretch the image of `digit` at position `depth`. The digits before
-/// that one are a number's low digits, followed by those of `above`.
+/// `digit` are the low digits of the number, followed by those of `above`.
 void BaseOwen::append_digit(const Stretch& stretch, std::uint64_t above, std::size_t depth,
                             std::uint32_t digit, std::uint64_t* image) const {
     if (stretch.count == 0) return;

@@ -10,8 +10,8 @@
 //
 // modulo b. A nested permutation is built from a random pi(0): the other digits follow it,
 // cyclically, in the order of hashes of prefix and digit. All digits after the last one of q are
-// zeros, so their images are the digits of a single uniform number, a hash of q. So no digit is
-// omitted.
+// zeros, so their images are the digits of a single uniform number, a hash of q. In this way, all
+// of the infinitely many digits are scrambled.
 //
 // Shape    q below 2^53; base in [2, 65536].
 // Cost     nested scrambling takes O(b) per digit, eight at a time, after O(b log b) for setup.

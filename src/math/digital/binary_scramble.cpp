@@ -53,7 +53,7 @@ inline std::uint32_t upper_flips(const BinaryOwen::Keys& keys, std::uint32_t x) 
 }
 
 /// Flips for the lower digits; `above` is the hash of the upper part. The multiplier differs
-/// between groups, so that prefixes with equal hashes in one differ in the next.
+/// between groups, so that prefixes with equal hashes in one group differ in the next.
 inline std::uint32_t lower_flips(const BinaryOwen::Keys& keys, std::uint32_t above,
                                  std::uint32_t x) {
     std::uint32_t flip = 0;

@@ -44,7 +44,7 @@ PermutedInverse::PermutedInverse(std::uint32_t base, const Rng& numbers)
     for (const std::uint16_t image : random_permutation(base, position++, numbers))
         low_.push_back(image);
     for (; block_ * base <= largest_digit_table; block_ *= base) {
-        // A higher digit changes more slowly along the table, its image faster.
+        // A higher digit changes more slowly along the table, and its image is less significant.
         std::vector<double> longer;
         for (const std::uint16_t image : random_permutation(base, position++, numbers))
             for (const double low : low_) longer.push_back(low * base + image);
@@ -62,8 +62,8 @@ PermutedInverse::PermutedInverse(std::uint32_t base, const Rng& numbers)
     std::ranges::reverse(zeros_);
 }
 
-/// Fraction formed by the images of the digits above the t low ones, in units of b^-t; kept inside
-/// (0, 1) by margin_.
+/// Fraction formed by the images of the digits above the t low ones, in units of b^-t; at least
+/// margin_ from 0 and 1.
 double PermutedInverse::behind(std::uint64_t high) const {
     Wide digits = 0;
     Wide power = 1;

@@ -6,8 +6,8 @@
 //
 // Faure: one permutation for all positions j, designed for a small discrepancy; pi(0) = 0. For b =
 // 2 it is (0, 1). For even b it is (2 pi, 2 pi + 1) with the permutation pi of b / 2. For odd b it
-// is that of b - 1 with values from c = (b - 1) / 2 on increased by 1, and c inserted in the
-// middle.
+// is the permutation of b - 1 with values from c = (b - 1) / 2 on increased by 1, and c inserted in
+// the middle.
 //
 // Random: an independent permutation for each position, including those of the infinitely many
 // leading zeros of i. Positions that are 0 for all indices below 2^53 together give a uniform
@@ -49,8 +49,7 @@ class PermutedInverse {
     std::uint64_t block_;                  ///< b^t, the number of values of the t low digits
     double margin_;                        ///< minimum distance of behind() from 0 and 1
     std::vector<double> low_;              ///< images of the t low digits, as integers
-    std::vector<std::uint16_t> permuted_;  ///< permutations of the higher positions, one after
-                                           ///< another
+    std::vector<std::uint16_t> permuted_;  ///< permutations of the higher positions, in order
     std::vector<double> zeros_;            ///< fraction if all digits from a position on are 0
 };
 

@@ -47,8 +47,8 @@ std::vector<std::int32_t> steps_of(const Net& net) {
     return steps;
 }
 
-/// True if each point is the one with its lowest nonzero index digit decreased by 1, plus that
-/// digit's step.
+/// True if each point equals the point whose index has the lowest nonzero digit decreased by 1,
+/// plus the step of that digit.
 bool is_linear(const Net& net, std::span<const std::int32_t> steps, const RunContext& run) {
     for (std::size_t i = 1; i < net.count; ++i) {
         if (i % (1 + 65536 / net.dimension) == 0) run.check_stop();

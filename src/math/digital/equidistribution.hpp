@@ -77,7 +77,7 @@ std::unique_ptr<Probe> probe_of(const Net& net, const std::optional<Matrices>& m
                                 const RunContext& run);
 
 /// True if all boxes hold the same number of points for every distribution of `digits` digits among
-/// the coordinates along[depth], ..., each of which gets at least one.
+/// the coordinates along[depth], ... that gives each of them at least one digit.
 bool all_equal(Probe& probe, std::span<const std::size_t> along, std::size_t depth,
                std::size_t digits);
 

@@ -53,7 +53,7 @@ RadicalInverse::RadicalInverse(std::uint32_t base, std::vector<std::uint32_t> pe
     while (block_ * base <= largest_digit_table) block_ *= base;
     if (block_ == base && permutation_.empty()) return;
     for (std::uint64_t i = 0; i < block_; ++i) {
-        // The digit above the block preserves leading zeros.
+        // A digit 1 above the block keeps the leading zeros of i; the division removes it again.
         const Reversed low = reversed(i + block_, base, permutation_);
         reversed_.push_back(static_cast<double>(static_cast<std::uint64_t>(low.digits / base)));
     }
