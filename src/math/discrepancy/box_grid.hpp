@@ -9,9 +9,10 @@
 // with scale n and weight 1 for discrepancies. The search for the largest empty box uses only open
 // boxes, scale 1 and a weight that excludes boxes with points. An open box contains no points on
 // its faces, except on faces of an anchored box at 0; a closed box contains all points on its
-// faces. Half-open boxes [0,c) have the same supremum as anchored open and closed ones if no point
-// has a coordinate 1. Such a point is in no half-open box, since c is at most 1. It is moved to
-// (1,...,1): only the closed box up to there contains it, and that box never has too many points.
+// faces. Half-open boxes [0,c) have the same supremum as anchored open and closed boxes if no point
+// has a coordinate 1. A point with a coordinate 1 is in no half-open box, since c is at most 1. It
+// is moved to (1,...,1): only the closed unit cube contains it, and the cube never has too many
+// points.
 //
 // Source  H. Niederreiter, "Discrepancy and convex programming", Ann. Mat. Pura Appl. 93 (1972)
 //         89-97, doi:10.1007/BF02412017 (the finite grid).
@@ -72,8 +73,8 @@ struct RankSet {
 /// end.
 RankSet ranks_between(Interval ends, Side side, bool wraps);
 
-/// Distinct coordinates on each axis, with 1 except on the torus, and with 0 for boxes of the cube;
-/// and the ranks of the points' coordinates among them.
+/// Distinct coordinates on each axis, and the ranks of the points' coordinates among them. The
+/// distinct coordinates include 1, except on the torus, and 0 for boxes of the cube.
 struct BoxGrid {
     std::size_t count = 0;
     Family family = Family::anchored;

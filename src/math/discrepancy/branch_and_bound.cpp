@@ -83,7 +83,7 @@ class Search {
         }
     }
 
-    /// Replaces the state of every peer by that of the first.
+    /// Replaces limits and bounds of every peer by those of the first.
     void agree() {
         Packer packer;
         packer.put(limits_.work).put(known_.upper).put(known_.work);

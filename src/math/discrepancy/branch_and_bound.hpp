@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// Branch and bound over cells of boxes. Cells with the highest bounds are explored first, several
-// at a time. Each is split, depth first, until its parts have bounds below a target between the
-// known bounds of the value, or until its budget is used up. Remaining parts return to the heap. So
-// the upper bound falls steadily, and cells that only an exact answer needs are explored last.
+// Branch and bound over cells: sets of boxes. Cells with the highest bounds are explored first,
+// several at a time. Each is split, depth first, until its parts have bounds below a target between
+// the known bounds of the value, or until its budget is used up. Remaining parts return to the
+// heap. So the upper bound falls steadily, and cells that only an exact answer needs are explored
+// last.
 // Cells explored together share their results only when all are done, so that the search does not
 // depend on the number of threads.
 //
 // Peer processes divide the cells of a round among themselves and then exchange the results, so
-// that all have the same state before the next round. Each does all other work redundantly. A
+// that all have the same state before the next round. All other work is done by every peer. A
 // single process is its own only peer.
 #pragma once
 
@@ -125,7 +126,7 @@ class Explorer {
     Task& task_;
     const SearchLimits& limits_;
     const RunContext& run_;
-    std::deque<Points> points_;  ///< points of the cells on the path to the current one, by depth
+    std::deque<Points> points_;  ///< points of the current cell and those that contain it, by depth
     std::uint64_t next_look_ = 0;
     bool late_ = false;
 };

@@ -163,12 +163,12 @@ class BoxAscent {
     std::vector<std::uint32_t> outside_;  ///< by point: number of axes on which it is outside
     /// Points inside on all other axes, by rank on this one.
     std::vector<std::uint32_t> points_at_;
-    /// Ranks on this axis of the points inside on all others, ascending.
+    /// Ranks on this axis, ascending, of the points inside on all other axes.
     std::vector<std::uint32_t> line_;
 };
 
-/// Maximum of d uniform numbers: the generator's numbers from `first` on or, for large d, one
-/// number with the distribution of the maximum.
+/// Maximum of d uniform numbers, those of `rng` from index `first` on; for large d, a single number
+/// with the distribution of the maximum.
 double largest_of(std::size_t d, const Rng& rng, std::uint64_t first) {
     constexpr std::size_t many = 64;
     if (d > many) return real_power(rng.uniform(first), 1 / static_cast<double>(d));
@@ -177,8 +177,8 @@ double largest_of(std::size_t d, const Rng& rng, std::uint64_t first) {
     return most;
 }
 
-/// Draws a random anchored box; coordinates are distributed as u^(1/d), so that its volume is not
-/// tiny.
+/// Draws a random anchored box. Its upper coordinates are distributed as u^(1/d), u uniform, so
+/// that its volume is not tiny.
 GridBox random_anchored_box(const BoxGrid& grid, Side side, std::uint64_t stream) {
     const std::size_t d = grid.dimension();
     const Rng rng(0, stream);
@@ -192,8 +192,8 @@ GridBox random_anchored_box(const BoxGrid& grid, Side side, std::uint64_t stream
     return box;
 }
 
-/// Draws a random box. In many dimensions most have a negligible volume, so the first open box is
-/// the largest possible, and closed ones span two points.
+/// Draws a random box. In many dimensions most random boxes have a negligible volume, so the first
+/// open box is the largest possible, and closed boxes span two points.
 GridBox random_free_box(const BoxGrid& grid, Side side, std::uint64_t stream) {
     const Rng rng(0, stream);
     const std::uint64_t one = rng.below(0, grid.count);
@@ -241,7 +241,7 @@ struct Plan {
 };
 
 /// Moves the corner of an anchored box a bit on two to four axes, possibly one axis twice. Uses the
-/// generator's numbers from `drawn` on.
+/// numbers of `rng` from `drawn` on.
 void perturb(const BoxGrid& grid, const Rng& rng, std::uint64_t drawn, GridBox& box) {
     const std::size_t d = grid.dimension();
     const std::uint64_t axes = 2 + rng.below(drawn, 3);
@@ -294,7 +294,7 @@ Ascent ascend(const BoxGrid& grid, const SearchLimits& limits, const RunContext&
         }
         mine.work += ascent.work();
     };
-    // Not stopped from outside: each ascent checks for a stop itself, and keeps its result.
+    // The loop itself ignores stops: each ascent checks for a stop, and keeps its result.
     for_each_block(silent(unstopped(run)), plan.starts, together, [&](const Block& block) {
         ascend_all(block, Side::open);
         if (grid.measure == Measure::discrepancy) ascend_all(block, Side::closed);

@@ -16,10 +16,11 @@ struct Ascent {
     std::uint64_t work;  ///< comparisons of coordinates
 };
 
-/// Worst box reached by ascents from up to 200 boxes on each side, fewer for large sets: a cheap
-/// lower bound, and often the worst box of all. Each ascent moves to the worst interval on one axis
-/// with the others fixed, until no axis gains. The largest empty box uses only open boxes. At least
-/// one step is done. Deterministic, unless time or a stop ends it with the results so far.
+/// Worst box reached by ascents from up to 200 open and 200 closed boxes, fewer for large sets: a
+/// cheap lower bound, and often the worst box of all. Each ascent replaces the interval on one axis
+/// by the worst one, with the other axes fixed, until no axis gains. The search for the largest
+/// empty box uses only open boxes. At least one step is done. Deterministic, unless time or a stop
+/// ends the search with the results so far.
 Ascent ascend(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run);
 
 /// One round of an endless search for bad anchored boxes by threshold accepting. Each ascent starts

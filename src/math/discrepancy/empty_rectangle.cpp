@@ -39,8 +39,8 @@ struct Width {
 };
 
 /// Sweeps upwards over points. A point's position is its rank by the first coordinate. Its key is
-/// its rank by height among the points below the current one; on the torus, points above are also
-/// below, one turn down.
+/// its rank by height among the points below the current one; on the torus, each point above the
+/// current one has a copy below it, one turn down.
 class Sweep {
   public:
     Sweep(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run)
@@ -171,8 +171,8 @@ class Sweep {
         }
     }
 
-    /// On the torus, offers the rectangle of full width below a point, cut at the point on its
-    /// lower side. Sets `width` to that cut; returns false if that point is straight below.
+    /// On the torus, offers the rectangle of full width from a point down to the next point. Sets
+    /// `width` to the circle cut at the next point; returns false if that is straight below.
     bool cut_circle(std::uint32_t rank, std::uint32_t top, Width& width) {
         const std::uint32_t lowest = point_of(keys_.among(0, grid_.count));
         const std::uint32_t cut = grid_.ranks[0][lowest];
@@ -184,8 +184,9 @@ class Sweep {
         return cut != rank;
     }
 
-    /// Offers all rectangles that reach the ceiling of the square: each range of positions ends at
-    /// its highest point, and splits there to the left and right.
+    /// Offers all rectangles that reach the ceiling of the square: over each range of positions,
+    /// the rectangle ends at the highest point, where the range is then split to the left and
+    /// right.
     void offer_below_ceiling() {
         const auto top = static_cast<std::uint32_t>(grid_.values[1].size() - 1);
         std::vector<Interval> open{{0, end_}};

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// The worst interval of points on a line: a maximum-subarray problem. A box of volume h on the
-// other axes, which contains these points there, has the excess h * length - w * (number of
-// points). Let P_i and Q_i be the excess of the interval from 0 to point i, without and with the
-// point itself:
+// The worst interval of points on a line: a maximum-subarray problem. Let a box have the volume h
+// on the other axes, and contain all points of the line on these axes. Then its excess is
+// h * length - w * (number of points) if it is open, and minus that if it is closed. Let P_i and
+// Q_i be h * length - w * (number of points) of the interval from 0 to point i, without and with
+// the point itself:
 //
 //     P_i = h x_i - w #{before i},      Q_i = P_i - w;
 //
 // Then open intervals between two points have the excess P_j - Q_i, i < j, and closed ones P_i -
-// Q_j, i <= j. On the circle, those that wrap have (h - w n) + P_i - Q_j, i <= j, and (w n - h) +
-// P_j - Q_i, i < j: the same two maxima. So one pass with the highest P and the lowest Q so far
-// finds the worst interval. Points with equal coordinates can only make some of these too small,
-// never too large.
+// Q_j, i <= j. On the circle, intervals that wrap have (h - w n) + P_i - Q_j, i <= j, if open, and
+// (w n - h) + P_j - Q_i, i < j, if closed: the same two maxima. So one pass with the highest P and
+// the lowest Q so far finds the worst interval. Points with equal coordinates can only make some
+// excesses too small, never too large.
 //
 // Source  J. Bentley, "Programming pearls: algorithm design techniques", Comm. ACM 27 (1984)
 //         865-873, doi:10.1145/358234.381162 (the pass, due to J. Kadane).

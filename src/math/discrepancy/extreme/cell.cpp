@@ -164,8 +164,8 @@ GridBox box_of(const BoxGrid& grid, const Cell& cell, const Line& line, const Co
     return box;
 }
 
-/// Expected gain from halving a range of ends on an axis: the undecided fraction of its length,
-/// plus that of its ranks.
+/// Expected gain from halving a range of ends on an axis: the length of the range as a fraction of
+/// the cell's largest interval, plus its ranks as a fraction of those of the axis.
 double openness(const BoxGrid& grid, std::size_t axis, const Ends& ends, Range range) {
     if (range.single()) return -1;
     const auto& values = grid.values[axis];
@@ -180,8 +180,8 @@ bool trim(Cell& cell) {
     const bool open = cell.side == Side::open;
     for (std::size_t at = 0; at < cell.lo.size(); at += parts) {
         if (cell.lo[at + 2] != cell.hi[at + 2]) continue;
-        // An interval that does not wrap has lower < upper if open, lower <= upper if closed. One
-        // that wraps has lower >= upper if open, lower > upper if closed.
+        // An interval that does not wrap has lower < upper if open, lower <= upper if closed. An
+        // interval that wraps has lower >= upper if open, lower > upper if closed.
         const bool plain = cell.lo[at + 2] == 0;
         const std::size_t below = plain ? at : at + 1;
         const std::size_t above = plain ? at + 1 : at;
@@ -354,10 +354,11 @@ class CellBounder {
     }
 
     /// Marks the points of a run that may be ends of a worst interval for some section of the cell.
-    /// The excess up to a point, P or Q, is a linear function of the section with slope x; the two
-    /// differ by a constant here. An interval ends at a high P and begins at a low Q. A point is
-    /// dominated if another one is better for all sections: it suffices to compare with points of
-    /// larger x at the smallest section, and with those of smaller x at the largest.
+    /// The excess up to a point, P or Q of worst_interval.hpp, is a linear function of the section
+    /// with slope x; P and Q differ by a constant. An interval ends at a high P and begins at a low
+    /// Q. A point is dominated if another one is better for all sections: it suffices to compare it
+    /// with points of larger x at the smallest section, and with points of smaller x at the
+    /// largest.
     void find_useful(const Stretch& stretch, const Line& line) {
         const std::size_t first = stretch.first;
         const std::size_t n = stretch.last - first;

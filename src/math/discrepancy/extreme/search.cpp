@@ -32,10 +32,10 @@ class FreeBoxes final : public Problem {
     const RunContext& run_;
 };
 
-// The indicator function of a box is a signed sum of those of up to 2^d anchored boxes, or 3^d - 1
-// on the torus: an interval is the difference of two that begin at 0, plus the whole axis if it
-// wraps, and the whole space has no discrepancy. So a multiple of the star discrepancy bounds the
-// others.
+// The indicator function of a box is a signed sum of the indicator functions of up to 2^d anchored
+// boxes, or 3^d - 1 on the torus: an interval is the difference of two intervals that begin at 0,
+// plus the whole axis if it wraps, and the whole space has no discrepancy. So a multiple of the
+// star discrepancy bounds the other discrepancies.
 
 /// Grid for anchored boxes; on the torus, coordinates 1 become 0.
 BoxGrid anchored_grid(const PointSet& points, Family family, const RunContext& run) {
@@ -83,7 +83,7 @@ SearchLimits share_for_bound(const SearchLimits& limits, const RunContext& run) 
 }  // namespace
 
 double search_memory(const PointSet& points, unsigned threads) {
-    // Lines on the path to a cell halve in length about every 2 d steps.
+    // From a cell to its parts, lines halve in length about every 2 d steps.
     const auto d = static_cast<double>(points.dimension());
     const double lines = std::min(3 * d + 2, 24.0);
     const double per_point = d * static_cast<double>(axis_bytes(false)) + 40 +

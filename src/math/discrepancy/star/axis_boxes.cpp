@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Bounds from boxes that cover all axes except one. Their worst is a first worst box, also the
-// result if there is no time for more. For an upper bound, let E_k bound the discrepancy of the
+// Bounds from boxes that cover all axes except one. The worst of these is the first known box, and
+// the result if there is no time for more. For an upper bound, let E_k bound the discrepancy of the
 // points' coordinates on axis k of d. A box with sides v_k and volume v is the intersection of d
-// such boxes, each with one of its sides. It contains at most as many points as any of them, and
-// misses at most as many as all of them together:
+// boxes that cover all axes except one, each with one of its sides. It contains at most as many
+// points as any of these, and misses at most as many as all of them together:
 //
 //     #/n <= min_k (v_k + E_k),          min_k v_k = p   =>  v >= p^d,
 //     #/n >= 1 - sum_k (1 - v_k + E_k),  mean_k v_k = s  =>  v <= s^d.

@@ -134,8 +134,8 @@ class CellBounder {
         }
     }
 
-    /// Removes the lower half of the cell last tightened, on the axis with the largest weight in
-    /// its bound, and returns it.
+    /// Removes the lower half of the cell last tightened, on the axis chosen by split_axis(), and
+    /// returns this half.
     Cell split(Cell& cell) const {
         const std::size_t axis = split_axis(cell);
         const auto bins = std::span(bins_[axis]).subspan(dummy_bins);
@@ -167,7 +167,7 @@ class CellBounder {
     struct Anchor {
         double bound;
         double weight;  ///< factor of a step in the terms
-        double margin;  ///< exceeds the rounding errors
+        double margin;  ///< exceeds the rounding errors of the bound and of the terms
     };
 
     double value(std::size_t k, std::uint32_t y) const { return grid_.values[k][y - shift<side>]; }
@@ -220,8 +220,8 @@ class CellBounder {
         mine.inside = inside;
     }
 
-    /// For a point inside all closed boxes: returns whether the box of `lo` ends at it on some axis.
-    /// Then its coordinate there is a candidate, so the point must be kept.
+    /// For a point inside all closed boxes: returns whether the box of `lo` ends at it on some
+    /// axis. Then its coordinate there is a candidate, so the point must be kept.
     bool ends_at_lo(const Cell& cell, const Active& from, std::size_t i) const {
         if (side == Side::open) return false;
         for (std::size_t k = 0; k < d_; ++k)
@@ -229,7 +229,8 @@ class CellBounder {
         return false;
     }
 
-    /// Sorts the active points into bins, and offers the box whose points this counts.
+    /// Sorts the active points into bins, and offers the box of hi (open) or lo (closed), whose
+    /// points are thereby counted.
     void count(const Cell& cell, const Active& active) {
         inside_lo_ = active.decided;
         for (std::size_t i = 0; i < active.inside; ++i) inside_lo_ += state_[i] == 0 ? 1U : 0U;
@@ -416,8 +417,8 @@ class CellBounder {
     std::uint64_t work_ = 0;
 
     // State of the current cell.
-    std::uint64_t inside_lo_ = 0;                   ///< points inside for all its corners
-    std::uint64_t inside_hi_ = 0;                   ///< points inside for its largest corner
+    std::uint64_t inside_lo_ = 0;                   ///< points inside the box of lo
+    std::uint64_t inside_hi_ = 0;                   ///< points inside the box of hi
     std::vector<std::vector<std::uint32_t>> bins_;  ///< see fill_bins
     std::vector<Candidates> candidates_;            ///< by axis
     Axes terms_;                                    ///< terms of the bound, for each candidate

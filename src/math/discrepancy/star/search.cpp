@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Branch and bound for anchored boxes. For many points, whose cells take long to become small, a
+// Branch and bound for anchored boxes. With many points, cells take long to become small, so a
 // first upper bound comes from a grid cover, or from a net if the points form one. From time to
-// time a threshold search looks for a worse box, which the cells would find only late.
+// time a threshold search looks for worse boxes, which exploring the cells would find only late.
 //
 // Source  the bounds are original; earlier exact methods are surveyed in C. Doerr, M. Gnewuch, M.
 //         Wahlstroem, arXiv:1405.1653.

@@ -16,7 +16,7 @@ namespace {
 using Floats = float __attribute__((vector_size(32)));
 using Doubles = double __attribute__((vector_size(32)));
 
-/// Loads a vector from unaligned numbers, and stores it.
+/// Loads a vector from unaligned numbers; store() writes it back.
 template <class Vector, class T>
 [[gnu::always_inline]] inline Vector load(const T* from) {
     Vector vector;
@@ -28,8 +28,8 @@ template <class T, class Vector>
     std::memcpy(to, &vector, sizeof vector);
 }
 
-/// Lines of a strip are w z - c with |w| <= 2 B, c <= B and 0 <= z <= 1. They are kept in single
-/// precision, in rows padded to whole vectors.
+/// Lines of strips and blocks, the braces of strips.hpp, are w z - c with |w| <= 2 B, c <= B and
+/// 0 <= z <= 1. They are kept in single precision, in rows padded to whole vectors.
 constexpr std::size_t lanes = sizeof(Floats) / sizeof(float);
 
 std::size_t padded(std::size_t size) { return (size + lanes - 1) / lanes * lanes; }
@@ -406,7 +406,7 @@ class Sweep {
     std::vector<float> strip_weight_;
     std::vector<float> strip_points_;
     std::vector<Entering> entering_;
-    std::size_t entered_ = 0;  ///< number of entering_ that were added
+    std::size_t entered_ = 0;  ///< number of points of entering_ added to the strip's lines
     /// Lines of the strip and of a block that may give a worse box than the worst so far.
     std::vector<Line> of_strip_;
     std::vector<Line> of_block_;
@@ -441,7 +441,7 @@ void sort_dots(const BoxGrid& grid, std::vector<std::uint32_t> points, Plane& pl
     constexpr std::size_t ahead = 16;
     for (std::size_t i = 0; i < grid.count; ++i) {
         if (i % checks_apart == 0) run.check_stop();
-        if (i + 2 * ahead < grid.count) {  // their targets are rarely cached
+        if (i + 2 * ahead < grid.count) {  // the elements to be read and written are rarely cached
             __builtin_prefetch(&points[grid.ranks[0][i + 2 * ahead]], 1);
             __builtin_prefetch(&block_of[grid.ranks[1][i + ahead]]);
             __builtin_prefetch(&plane.dots[points[grid.ranks[0][i + ahead]]], 1);

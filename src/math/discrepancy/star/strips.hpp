@@ -18,9 +18,10 @@
 //         + { n (Y_J - Y_j) X_a0 - #[r < a0, j < t < j1] }
 //         + n (X_a - X_a0) (Y_J - Y_j) - #[a0 <= r <= a, j < t < j1].
 //
-// The maximum of a brace is a convex function of the value on the other axis as long as its points
-// do not change. So a chord bounds it from one point of the strip (or block) to the next. Each pair
-// of strip and block then takes two products and a comparison; few pairs need all boxes compared.
+// For a given a or j, a brace is a line: a linear function of the value on the other axis as long
+// as its points do not change. The maximum over all a (or j) is convex, so a chord bounds it from
+// one point of the strip (or block) to the next. Each pair of strip and block then takes two
+// products and a comparison; only for few pairs are all boxes compared.
 //
 // Cost    n B for the chords and (n / B)^2 for the pairs: O(n^(4/3)) time with B ~ n^(1/3), if the
 //         worst box exceeds others by more than the variation within a strip; O(n) memory.
