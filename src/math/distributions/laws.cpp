@@ -8,7 +8,8 @@
 //     gumbel       location - scale log(-log p)    lognormal    exp(mu + sigma Phi^-1(p))
 //     triangular   low + sqrt(p (high - low) (mode - low)), and its mirror image above the mode
 //
-// Gamma, beta and Student's t use incomplete gamma and beta functions. The tail of Student's t is
+// Gamma, beta and Student's t distributions use incomplete gamma and beta functions. The tail of
+// Student's t is
 //
 //     P(T > t) = I_z(nu / 2, 1 / 2) / 2,    z = nu / (nu + t^2),
 //
@@ -167,7 +168,7 @@ struct Triangular {
     double below = (mode - low) / (high - low);   ///< probability below the mode
     double above = (high - mode) / (high - low);  ///< probability above the mode
 
-    /// Computed from the nearer end, using sums of positive numbers only.
+    /// Quantile, computed from the nearer end, using sums of positive numbers only.
     double quantile(double p, Tail tail) const {
         const double from_low = tail == Tail::lower ? p : 1 - p;
         const double from_high = tail == Tail::lower ? 1 - p : p;
@@ -374,7 +375,7 @@ struct Beta {
         const double from_high = tail == Tail::lower ? at.rest : at.x;
         return from_low < 0.5 ? low + from_low * (high - low) : high - from_high * (high - low);
     }
-    /// Computed from the nearer end, whose distance has no rounding error.
+    /// Probability, computed from the nearer end: the distance from it has no rounding error.
     double probability(double x, Tail tail) const {
         const double y = (x - low) / (high - low);
         const double rest = (high - x) / (high - low);

@@ -76,7 +76,7 @@ double Outcomes::density(double x) const {
     return at != values_.end() && *at == x ? weights_[i] : 0;
 }
 
-/// Computed relative to the median, in units of the largest distance from it.
+/// Moments, computed relative to the median in units of the largest distance from the median.
 MarginalMoments Outcomes::moments() const {
     const double middle = quantile(0.5, Tail::lower);
     const double unit = std::max(middle - values_.front(), values_.back() - middle);

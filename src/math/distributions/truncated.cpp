@@ -3,7 +3,8 @@
 // A distribution truncated to [a, b]. With m = F(b) - F(a), probabilities are sums of positive
 // numbers in the tail where they are smaller:
 //
-//     quantile(p) = quantile of F(a) + p m from below, or of (1 - F(b)) + (1 - p) m from above.
+//     quantile(p) = quantile of F(a) + p m in the lower tail,
+//                   or of (1 - F(b)) + (1 - p) m in the upper tail.
 
 #include <algorithm>
 #include <cmath>
