@@ -21,7 +21,7 @@ namespace stipple {
 /// seconds and may change last bits from run to run.
 enum class Planning { estimated, measured };
 
-/// In-place transform of lines of one length. Threads may execute it concurrently.
+/// In-place transform of lines of equal length. Threads may execute it concurrently.
 class LineTransform {
   public:
     /// real: n real numbers become n / 2 + 1 complex ones, of frequencies 0, 1, ..., n / 2.
@@ -68,7 +68,7 @@ std::string_view fft_licence();
 /// @throws Error(io), Error(input), or Error(usage) in a program without FFTW
 void read_wisdom(const std::string& path);
 
-/// FFTW's current measurements, in the format of that file.
+/// FFTW's current measurements, in the format that read_wisdom() reads.
 std::string wisdom_text();
 
 }  // namespace stipple

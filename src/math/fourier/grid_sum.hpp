@@ -2,8 +2,8 @@
 //
 // Sums of grids of numbers of any size, independent of the order of additions. Grids of similar
 // size are added together. Each cell is divided by a power of two and split into integer multiples
-// of 2^-21 and, for the remainder, of 2^-64. This rounds a grid once, by at most 2^-65 of that
-// power. Sums of the integers are exact, so grids can be added in any order and in any parts. The
+// of 2^-21 and, for the remainder, of 2^-64. This rounds a grid once, by at most 2^-65 of the power
+// of two. Sums of the integers are exact, so grids can be added in any order and in any parts. The
 // sums for different sizes are added in a fixed order. So rounding errors are relative to the size
 // of each grid.
 //

@@ -46,9 +46,9 @@ class KaiserBessel {
     /// counted from 0; for odd widths, this distance minus 1/2
     [[nodiscard]] std::array<double, max_width> weights(double u) const;
 
-    /// Largest error of exp(-2 pi i xi x), |xi| <= band, of one point in one dimension, after
-    /// spreading, transforming and dividing by the scaling factors. Searched at so many positions
-    /// that the maximum is at most a tenth larger.
+    /// Largest error of exp(-2 pi i xi x), |xi| <= band, for one point in one dimension, after
+    /// spreading, transforming and dividing by the scaling factors. Computed at so many positions
+    /// that the true maximum is at most a tenth larger.
     [[nodiscard]] double error() const { return error_; }
 
     /// Factor by which the division by scaling factors magnifies rounding errors at the end of the
@@ -83,7 +83,8 @@ class WeightTable {
     /// Length of a row of coefficients, a multiple of 8; unused ones are zero.
     static constexpr std::size_t row_of(std::size_t width) { return (width + 7) / 8 * 8; }
 
-    /// Fastest degree: the table then fits the first-level cache together with a tile.
+    /// Degree of the polynomials, the fastest: with it, the table fits the first-level cache
+    /// together with a tile.
     static constexpr std::size_t degree_of(std::size_t width) { return (width + 3) / 4 + 2; }
 
     [[nodiscard]] std::size_t degree() const { return degree_of(width_); }

@@ -33,8 +33,8 @@ double cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
     return spreading + transform_seconds(dimension, side) + cells * touching;
 }
 
-/// Ratio of the tolerance to the window's errors on all axes. It leaves room for rounding errors,
-/// and for positions at which the window's error was not computed.
+/// Ratio of the tolerance to the sum of the window's errors on all axes. It leaves room for
+/// rounding errors, and for positions at which the window's error was not computed.
 constexpr double reserve = 1.2;
 
 /// True if the division by the scaling factors keeps rounding errors small enough.

@@ -112,7 +112,8 @@ struct Chunk {
     }
 };
 
-/// The lower 52 bits: of a word, those below its grid point; of a double, its mantissa.
+/// The lower 52 bits: the position after a grid point in a word of find_places(), or the mantissa
+/// of a double.
 constexpr std::uint64_t fraction = (std::uint64_t{1} << 52) - 1;
 STIPPLE_INLINE Words word_of(const V& cell, const V& between) {
     const V zero = {};
@@ -275,8 +276,8 @@ void find_all(std::span<const double> rows, const SpreadTile& common, std::uint3
                 V first;
                 V between;
                 locate(load<V>(&axes[k][i]), common, first, between);
-                // The last tile t with t side / tiles < first + 1, and its first grid point;
-                // numbers before truncation are far from integers.
+                // The last tile t with t side / tiles < first + 1, and the first grid point of that
+                // tile. Truncation is safe, because the numbers are far from integers.
                 const V tile = truncated(first * tiles_a_cell + past_tile);
                 const V start = truncated(tile * cells_a_tile + past_cell);
                 sum += step_k * tile;

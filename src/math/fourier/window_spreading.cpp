@@ -10,8 +10,8 @@
 namespace stipple {
 namespace {
 
-/// Points that are processed together, step by step. Each step is short enough for the processor to
-/// overlap several points, which the whole computation is not.
+/// Number of points that are processed together, step by step. The processor can overlap the short
+/// steps of several points, but not the whole computations.
 constexpr std::size_t chunk = 16;
 
 #define STIPPLE_KERNELS "math/fourier/window_lanes.hpp"

@@ -24,10 +24,10 @@ struct SpreadTile {
     double tiles = 0;                      ///< number of tiles along an axis
     double shift = 0;                      ///< 1/2 for odd windows, which centre on a grid point
     double lead = 0;                       ///< grid points of the window before the point's cell
-    std::size_t width = 0;                 ///< of the window, in grid points
+    std::size_t width = 0;                 ///< width of the window, in grid points
     unsigned piece_bits = 0;               ///< the window's table has 2^this pieces
-    const double* coefficients = nullptr;  ///< of the window's table
-    std::size_t numbers = 0;               ///< per point: coordinates, and its strength if weighted
+    const double* coefficients = nullptr;  ///< coefficients of the window's table
+    std::size_t numbers = 0;               ///< numbers per point: coordinates, then any strength
     /// Cells in a row of the buffer: a multiple of 8, enough for the widest tile and whole vectors.
     std::size_t extent = 0;
     std::array<std::int64_t, 3> start{};           ///< first cell, by axis
