@@ -20,7 +20,7 @@ struct Cholesky {
     /// Size of the first leading minor that is 0 up to rounding errors, or negative; 0 if there is
     /// none.
     std::size_t failed = 0;
-    double minor = 1;  ///< value of that minor, or the determinant
+    double minor = 1;  ///< value of the failed minor, or the determinant if `failed` is 0
 };
 
 inline Cholesky cholesky(std::span<const double> a, std::size_t d) {

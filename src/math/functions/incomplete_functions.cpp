@@ -196,7 +196,7 @@ struct Parts {
 
 Parts parts_of(double x) { return {{x, 0}, exact_sum(1, -x)}; }
 
-/// Computes both parts from the smaller of x and 1 - x.
+/// Computes x and 1 - x, both from the smaller one.
 Parts parts_of(const Shares& at) {
     if (at.x < at.rest) return parts_of(at.x);
     const auto [x, rest] = parts_of(at.rest);
@@ -226,7 +226,7 @@ class BetaFunction {
         return log.high + (log.low - (front_ + logarithm(b_ / sum_.high)));
     }
 
-    /// True if I_x is to be computed directly, false if from 1 - I_x.
+    /// True if I_x should be computed directly, false if from 1 - I_x.
     bool lower_first(const Parts& at) const { return at.x.high * (sum_.high + 0.6) <= a_ + 0.3; }
 
     double below(const Parts& at) const {

@@ -101,9 +101,9 @@ inline double turns_of(double x, double y) {
     const double ay = std::abs(y);
     const double small = std::min(ax, ay);
     const double big = std::max(ax, ay);
-    // The angle is base + sign * part, with base a whole number of eighths, so that a single
-    // addition rounds. Reflections are products, because branches would be mispredicted half of the
-    // time and keep loops from being vectorised.
+    // The angle is base + sign * part, with base a whole number of eighths, so that only one
+    // addition rounds. Reflections are products: branches would be mispredicted half of the time,
+    // and would keep loops from being vectorised.
     const double null = big == 0;
     const double middle = small > tan_sixteenth * big;
     const double steep = ay > ax;
