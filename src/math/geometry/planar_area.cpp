@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // A polygon is clipped to a half-plane edge by edge (Sutherland and Hodgman). Its area within a
-// disk is a sum over its edges p -> q: the signed area that the disk shares with the triangle of
-// its centre, p and q. The part of the edge inside the disk contributes half a cross product, the
-// part outside a sector.
+// disk is a sum over its edges p -> q: the signed area that the disk shares with the triangle whose
+// corners are p, q and the disk's centre. The part of the edge inside the disk contributes half a
+// cross product, the part outside a sector.
 //
 // Source  I. E. Sutherland, G. W. Hodgman, Communications of the ACM 17 (1974) 32-42,
 //         doi:10.1145/360767.360802.

@@ -3,8 +3,8 @@
 // Checks if closed rings of straight edges cross, overlap, or touch themselves. Two rings may touch
 // in single points, as in the simple features of the OGC. A sweep from row to row compares edges
 // that become neighbours (Shamos and Hoey). Edges are cut where a vertex of another ring touches
-// them, and the sweep is repeated until rings touch only in vertices. There, two rings cross if the
-// edges of one separate those of the other.
+// them, and the sweep is repeated until rings touch only in vertices. At a shared vertex, two rings
+// cross if the edges of one separate those of the other.
 //
 // Cost    O(n log n) time, O(n) memory.
 // Promise edges count as touching if they are closer than the rounding error of a determinant,

@@ -3,11 +3,11 @@
 // The lattice of n points with the largest minimum distance on a torus, a rectangle whose opposite
 // sides are joined.
 //
-// It is L / n, where L is a lattice of integer vectors with determinant n. Its shortest vector u
-// has |u|^2 <= 2 n / sqrt(3), with equality only for the hexagonal lattice. Vectors u are tried
-// from the longest down. The second basis vector v solves u x v = n, with its component along u as
-// close as possible to half of u. The first u with |v| >= |u| is the best. On a rectangle with
-// sides in the ratio r, |(x, y)|^2 is r x^2 + y^2 / r.
+// The lattice is L / n, where L is a lattice of integer vectors with determinant n. The shortest
+// vector u of L has |u|^2 <= 2 n / sqrt(3), with equality only for the hexagonal lattice. Vectors u
+// are tried from the longest down. The second basis vector v solves u x v = n, with its component
+// along u as close as possible to half of u. The first u with |v| >= |u| is the best. On a
+// rectangle with sides in the ratio r, |(x, y)|^2 is r x^2 + y^2 / r.
 //
 // Shape   n in [1, 2^40].
 // Cost    O(sqrt(n) log n); 0.2 s at 2^40.
