@@ -15,7 +15,7 @@
 // Shape   d coordinates; u_i and the ratios of the a_i do not depend on d. product-peak and
 //         corner-peak allow d <= 100, because values would overflow or underflow beyond.
 // Promise integrals within 1e-13 relative. All except the corner peak are products of integrals in
-//         one variable. For it, 1 / s^(d + 1) = 1/d! int_0^inf t^d e^(-s t) dt gives
+//         one variable. For the corner peak, 1 / s^(d + 1) = 1/d! int_0^inf t^d e^(-s t) dt gives
 //
 //             1/d! int_0^inf t^d e^-t prod (1 - e^(-a_i t)) / (a_i t) dt,
 //

@@ -5,8 +5,8 @@
 //     smooth-gaussian  exp(-|x - 1/2|^2 / (2 width^2)), centred at (1/2, ..., 1/2)
 //     zone-plate       (1 + cos(k (x^2 + y^2))) / 2
 //     owen             sum over all sets u of `order` axes of prod_{j in u} sqrt(12) (x_j - 1/2),
-//                      divided by the root of their number: integral 0, and variance 1, all from
-//                      interactions of exactly `order` coordinates
+//                      divided by the root of the number of sets: integral 0, and variance 1, all
+//                      from interactions of exactly `order` coordinates
 //     sobol-g          prod (|4 x_j - 2| + a_j) / (1 + a_j), integral 1; a_j = j - 1 by default;
 //                      a single given a applies to all axes
 //     sky-radiance     cos theta (1 + 2 cos theta) / 3: the light on a level plane from an
