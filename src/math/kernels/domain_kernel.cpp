@@ -6,7 +6,7 @@
 //     E k(|x - Y|)  =  integral over t > 0 of -k'(t) (F(x + t) - F(x - t)) dt
 //     E E k         =  integral over u of E k(|q(u) - Y|) du,    F(q(u)) = u.
 //
-// Cost    about 300 values of F for the mean in one coordinate, about 10^5 for its total.
+// Cost    for one coordinate, about 300 values of F for E k(|x - Y|) and about 10^5 for E E k.
 // Promise means have an error of about 1e-11, which rounding() includes.
 
 #include "math/kernels/kernel.hpp"
@@ -65,7 +65,7 @@ class Marginals {
         }
     }
 
-    /// Bounds of coordinate k; of an unbounded domain, those that plots use.
+    /// Bounds of coordinate k; for an unbounded domain, the bounds that plots use.
     [[nodiscard]] std::array<double, 2> ends(std::size_t k) const {
         return {box_.low[k], box_.high[k]};
     }

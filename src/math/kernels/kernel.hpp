@@ -91,7 +91,7 @@ KernelPtr stein(std::size_t dimension, double bandwidth);
 // Defined in domain_kernel.cpp.
 
 /// True if the domain's coordinates are independent, and each cube coordinate is the distribution
-/// function of one of them. Tested at the given points, moved along single coordinates.
+/// function of one of them. Tested by moving the given points along single coordinates.
 bool has_independent_axes(const Domain& domain, std::span<const double> points);
 
 /// Kernels for arbitrary points whose target is a domain with independent axes.
@@ -107,7 +107,7 @@ struct SquaredDiscrepancy {
     double expected;  ///< for n random points of the target: (mean of K(x,x) - total) / n
 };
 
-/// Squared discrepancy of the points from the kernel's target, by the kernel's means. If
+/// Squared discrepancy of the points from the kernel's target, by mean() and total(). If
 /// mean_diagonal() is unknown, `expected` uses the mean K(x, x) of the points.
 /// @throws Error(limit) if values are too large for a double
 SquaredDiscrepancy squared_from_mean(const Kernel& kernel, const Columns& points,

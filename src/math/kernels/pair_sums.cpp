@@ -82,8 +82,8 @@ class FixedSum {
 
 constexpr std::size_t rows_at_once = 64;
 
-/// Sum of K over a block of rows and all columns. If both are the same points, each row takes the
-/// columns up to itself, and counts all except the diagonal twice.
+/// Sum of K over a block of rows and all columns. If rows and columns are the same points, each row
+/// takes only the columns up to itself, and counts all of them except the diagonal twice.
 class BlockSum {
   public:
     BlockSum(const Kernel& kernel, const Columns& rows, const Columns& columns, int exponent)
