@@ -44,7 +44,7 @@ struct AxisFactor {
     Quad total;  ///< mean of the factor over x and y
 };
 
-// Coordinates as integer multiples of 2^-63.
+// Coordinates are stored as integer multiples of 2^-63.
 
 inline constexpr unsigned fraction_bits = 63;
 

@@ -55,8 +55,8 @@ STIPPLE_INLINE V fused(V a, V b, V c) {
 }
 #endif
 
-/// A vector for each point of a group of rows. Each operation is done for all of them before the
-/// next one, so that no instruction waits for the one before.
+/// A vector for each point of a group of rows. Each operation is done for all these vectors before
+/// the next operation, so that no instruction waits for the one before.
 struct Group {
     V at[group];
 };
@@ -195,8 +195,8 @@ struct Linear {
     }
 };
 
-/// Mixture kernel: a parabola in the distance plus a number of each point; that sum has no rounding
-/// error.
+/// Mixture kernel: a parabola in the distance plus one number for each of the two points; the sum
+/// of these numbers has no rounding error.
 struct Mixture {
     static constexpr std::size_t columns_of_factor = 4;
     static constexpr bool separates = false;
@@ -268,7 +268,7 @@ STIPPLE_INLINE Compensated<Group> factor_of(const GroupPair& g, std::size_t fact
                           g.table.factors()[factor]);
 }
 
-/// Start of the products: the columns' own products, or the first factor.
+/// First operand of products(): the columns' own products, or the first factor.
 template <class Kernel>
 STIPPLE_INLINE Compensated<Group> first_factor(const GroupPair& g, std::size_t k) {
     const PointProducts& own = g.pair.column_products;

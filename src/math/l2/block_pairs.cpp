@@ -24,13 +24,13 @@ enum class Known {
     one          ///< equals 1: the blocks are on different sides of 1/2
 };
 
-/// Property of a factor of a kernel that depends on the order of two points.
+/// Known property of a factor, for a kernel that depends on the order of two points.
 Known known_in_order(const BlockTable::Range& rows, const BlockTable::Range& columns) {
     if (rows.greatest <= columns.least) return Known::of_rows;
     return columns.greatest <= rows.least ? Known::of_columns : Known::nothing;
 }
 
-/// Property of a factor of the centered kernel.
+/// Known property of a factor of the centered kernel.
 Known known_by_side(const BlockTable::Range& rows, const BlockTable::Range& columns) {
     const bool apart = std::min(rows.greatest, columns.greatest) <= 0.5 &&
                        std::max(rows.least, columns.least) >= 0.5;
@@ -53,8 +53,8 @@ struct BlockPair {
     const double* rows = nullptr;
     const double* columns = nullptr;
     std::vector<std::size_t> factors = {};  ///< factors that differ between pairs of points
-    bool full = true;                       ///< no padding
-    // For kernels whose factors can depend on one of two points.
+    bool full = true;                       ///< neither block has padding
+    // The following are used only by kernels whose factors can depend on one point of a pair.
     std::vector<std::size_t> row_factors = {};
     std::vector<std::size_t> column_factors = {};
     PointProducts row_products = {};
@@ -85,7 +85,7 @@ DoubleDouble total_of(const LaneSums& sums) {
     return total;
 }
 
-/// Sums over pairs of a block's points with others.
+/// A block of rows: sums over the pairs of its points with those of other blocks.
 class Rows {
   public:
     Rows(const BlockTable& table, const PairKernel& kernel, std::size_t block)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Sums of products over all pairs of points, block by block. On some axes all points of one block
-// come before those of another. Then factors can be computed for the blocks, instead of for each
-// pair of points.
+// come before those of another. The factors of such an axis are computed once for each point,
+// instead of for each pair of points.
 #pragma once
 
 #include <cstddef>
@@ -50,7 +50,7 @@ class BlockTable {
     [[nodiscard]] bool any_order() const { return any_order_; }
     [[nodiscard]] std::size_t height() const { return factors_.size() * columns_ + 1; }
 
-    /// Stores the numbers of a point for a factor, as many as the form has columns.
+    /// Stores the numbers of point i for a factor, as many as the form has columns per factor.
     void put(std::size_t i, std::size_t factor, const double* numbers, double position);
 
     [[nodiscard]] const double* block(std::size_t b) const {

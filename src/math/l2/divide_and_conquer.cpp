@@ -275,9 +275,9 @@ class Division {
     /// Sums over the points passed so far, by the terms of the first axis.
     using Passed = std::array<Weights, rank>;
 
-    /// Adds the pairs among items [first, last) of level r that are on different sides of axis r
-    /// (on the highest level, all pairs). Items arrive in order of axis r - 1 and leave in order of
-    /// axis r - 2.
+    /// Adds the pairs of items in [first, last) of level r that are in different halves of axis r
+    /// (on the highest level, all pairs). Items are sorted by axis r - 1 before and by axis r - 2
+    /// afterwards.
     void solve(std::size_t r, std::size_t first, std::size_t last, FixedSum& sum) {
         const std::size_t size = last - first;
         if (size <= Axis::few) return take_pairs(r, first, last, sum);
@@ -334,7 +334,7 @@ class Division {
         return all;
     }
 
-    /// Merges two halves in order of axis r - 2 and calls take(item, true if from the upper half).
+    /// Merges two halves in order of axis r - 2 and calls take(item, whether from the upper half).
     template <class Take>
     void merge(std::size_t r, std::size_t first, std::size_t last, const Take& take) {
         Item* const items = levels_[r].data();

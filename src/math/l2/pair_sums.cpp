@@ -190,8 +190,8 @@ class FactorForm {
     Quad scale_;
     Quad base_ = 0;
     double step_ = 0;
-    DoubleDouble top_ = {};     ///< terms are this minus a coordinate or its half
-    DoubleDouble bottom_ = {};  ///< terms are this plus a part of a coordinate
+    DoubleDouble top_ = {};     ///< number from which a coordinate or its half is subtracted
+    DoubleDouble bottom_ = {};  ///< number to which a part of a coordinate is added
 };
 
 /// The axes with nonzero weights.
@@ -370,7 +370,7 @@ PairForm form_of(const FactorForm& form, Kind kind) {
     return form.is_bernoulli() ? PairForm::bernoulli : PairForm::minimum;
 }
 
-/// Scale of positions in a form whose factors are multiplied by root^2.
+/// Factor by which positions are multiplied so that the form's factors are multiplied by root^2.
 double scale_of_distance(PairForm form, double root) {
     return form == PairForm::linear ? root * root : root;
 }
@@ -425,7 +425,7 @@ BlockTable table_of(PairForm form, const Numbers& numbers, const Scaling& scalin
 /// Combined data of the axes' factors.
 struct AxisProducts {
     Quad total = 1;  ///< mean over both points of the products
-    Quad scale = 1;  ///< the products in the sum over pairs were divided by this
+    Quad scale = 1;  ///< divisor of the products in the sum over pairs
     Quad most = 1;   ///< upper bound on all products
     double cancellation = 0;
     bool may_vanish = false;

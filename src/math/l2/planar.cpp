@@ -16,10 +16,10 @@
 //                             = 4 sum_i x_i h_i - 2 sum_ik x_k |y_i - y_k|,
 //                        h_i  = sum |y_i - y_k| over the points before i in order of x.
 //
-// T is the only sum that needs both orders at once. It is the same for every kernel, and is
-// computed during a merge sort by y. When a point of the right half is output, the points of the
-// left half output before are those to its lower left. Ties do not matter, because their terms are
-// 0.
+// T is the only sum that needs the orders by x and by y at once. It is the same for every kernel,
+// and is computed during a merge sort by y. When a point of the right half is output, the points of
+// the left half that were output before are those to its lower left. Ties do not matter, because
+// their terms are 0.
 //
 // Coordinates are integer multiples of 2^-63 (smaller parts are rounded away), sums are integers of
 // any length, and only the final quotient is rounded.
