@@ -13,8 +13,8 @@
 // Shape    D dimensions, or for D = 0 a number given at run time, up to 32; at least one point.
 // Cost     about 2 D steps of O(D^2 + points D).
 // Promise  never below the maximum, except by rounding. Exceeds it (as a squared distance) by at
-//          most the sum of h_k^2 plus the tolerance. So the excess is quadratic in the box's size,
-//          while that of the distance from a single point to the farthest corner is linear.
+//          most the sum of h_k^2 plus the tolerance. So the excess is quadratic in the box's size.
+//          A bound by the farthest corner from a single point has a linear excess.
 // Source   the bound is the Lagrange dual; G. B. Dantzig, "Linear Programming and Extensions", 1963
 //          (simplex method).
 #pragma once
@@ -82,7 +82,7 @@ class CoveringBound {
     [[nodiscard]] std::size_t d() const { return D > 0 ? D : dimension_; }
     [[nodiscard]] std::size_t rows() const { return d() + 1; }
 
-    /// Columns below 2 D are slacks, +k and -k alternately; the others are points.
+    /// True for the columns of points, after 2 D columns of slacks, +k and -k alternately.
     [[nodiscard]] bool is_point(std::size_t id) const { return id >= 2 * d(); }
     static std::size_t slack(std::size_t k, bool negative) { return 2 * k + (negative ? 1 : 0); }
 
@@ -126,7 +126,7 @@ class CoveringBound {
         return entering != none && exchange(entering, least);
     }
 
-    /// Brings a column with this reduced cost into the basis.
+    /// Brings the column `entering`, whose reduced cost is `reduced`, into the basis.
     bool exchange(std::size_t entering, double reduced) {
         const Row column = column_of(entering);
         std::size_t leaving = none;
@@ -189,9 +189,9 @@ class CoveringBound {
     double tolerance_;
     std::vector<Candidate> points_;
     std::array<std::size_t, most + 1> basis_{};
-    std::array<Row, most + 1> inverse_{};  ///< inverse of the basis; the last column is the basic
-                                           ///< solution
-    Row prices_{};                         ///< dual variables; the last one is the bound
+    /// Inverse of the basis; the last column is the basic solution.
+    std::array<Row, most + 1> inverse_{};
+    Row prices_{};  ///< dual variables; the last one is the bound
 };
 
 }  // namespace stipple

@@ -53,8 +53,8 @@ class Delaunay {
 
   private:
     static constexpr std::uint32_t none = 0xffff'ffff;
-    static constexpr std::uint32_t outer = 4;  ///< number of corners of the enclosing square,
-                                               ///< before the points
+    /// Number of corners of the enclosing square, which are numbered before the points.
+    static constexpr std::uint32_t outer = 4;
 
     /// Corners in counterclockwise order; across[k] is the triangle beyond the edge opposite to
     /// corner k.

@@ -101,7 +101,7 @@ struct NearestBut {
 struct NearestOfOthers {
     const KdTree::Groups& groups;
     std::uint32_t own;
-    Neighbor best;  ///< starts at a finite distance; skipped nodes have infinite bounds
+    Neighbor best;  ///< initially at a finite distance, because skipped nodes have infinite bounds
 
     [[nodiscard]] bool skips_node(std::size_t node) const { return groups.nodes[node] == own; }
     [[nodiscard]] bool wants(const Neighbor& bound) const { return bound < best; }

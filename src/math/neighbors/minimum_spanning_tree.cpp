@@ -37,8 +37,8 @@ class Parts {
     std::vector<std::uint32_t> parents_;
 };
 
-/// Grows all parts at once. The nearest outside point of each point is kept as long as it is
-/// outside, since no nearer one can appear.
+/// Grows all parts at once. For each point, the nearest point outside its part is kept until both
+/// are in one part; no nearer one can appear before.
 class Growth {
   public:
     Growth(const KdTree& tree, const RunContext& run)
@@ -93,7 +93,7 @@ class Growth {
         }
     }
 
-    /// Lowers the bound of a part. Bounds only serve to skip work, so they need not be current.
+    /// Lowers the bound of a part. Bounds only serve to skip work, so they may be outdated.
     void lower(std::uint32_t part, double squared) {
         std::atomic<double>& bound = bounds_[part];
         double now = bound.load(std::memory_order_relaxed);

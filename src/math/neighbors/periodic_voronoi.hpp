@@ -48,7 +48,7 @@ struct CellCorner {
 
     Vec2 at;        ///< relative to the cell's site
     Vec2 neighbor;  ///< site beyond the edge, relative to this one; mirror image for a wall
-    std::uint32_t site = wall;  ///< its index; the cell's own index for a copy of its site
+    std::uint32_t site = wall;  ///< index of the neighbor; of the cell's site for a copy of it
 };
 
 /// Moments of a cell's area, relative to its site.
@@ -119,7 +119,7 @@ class PeriodicVoronoi {
     [[nodiscard]] std::size_t count() const { return sites_.size(); }
     [[nodiscard]] Vec2 operator[](std::size_t i) const { return sites_[i].at; }
 
-    /// Adds site i, which must not be present, at `at`.
+    /// Adds site i at `at`. The rectangle must not contain site i yet.
     void insert(std::size_t i, Vec2 at);
     void remove(std::size_t i);
     void move(std::size_t i, Vec2 to);

@@ -34,8 +34,8 @@ struct PlanarSites {
     bool torus;                           ///< opposite sides of the rectangle are joined
     std::vector<double> rows = {};        ///< x and y of each site, relative to the low corner
     std::vector<std::uint32_t> points{};  ///< lowest index of the points at each site
-    double occupancy = 0;                 ///< mean number of points in a point's cell, with two
-                                          ///< points per cell on average
+    /// Mean number of points in a point's cell, in a grid with two points per cell on average.
+    double occupancy = 0;
 
     [[nodiscard]] std::size_t count() const { return points.size(); }
     [[nodiscard]] Vec2 at(std::size_t i) const { return {rows[2 * i], rows[2 * i + 1]}; }

@@ -226,7 +226,7 @@ class SortedPoints {
 
     /// Removes point s, so that it is not visited any more.
     void remove(std::size_t s) {
-        rows_[s * D] = std::numeric_limits<double>::quiet_NaN();  // has no distance from any point
+        rows_[s * D] = std::numeric_limits<double>::quiet_NaN();  // not within any radius
     }
 
     /// Calls visit(s, distance^2) for every point within the radius of p.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Distances in a box, cells small enough that points with a minimum distance have one each, and
-// dispatch from a dimension to code compiled for it.
+// Distances in a box; cells so small that each holds at most one of several points with a minimum
+// distance; and dispatch from a dimension to code compiled for it.
 //
 //     distance^2 = sum_k d_k^2,    d_k = |p_k - q_k|,  on the torus min(d_k, side_k - d_k).
 #pragma once
