@@ -140,8 +140,8 @@ class FaceTree::Builder {
         return static_cast<std::uint32_t>(number);
     }
 
-    /// Describes a facet, with its volume as its share. Its space is spanned by the apexes along
-    /// the path through the heaviest facets, which are far from each other.
+    /// Describes a facet, with its volume as its share. The space of the facet is spanned by the
+    /// apexes along the path through the heaviest facets, because they are far from each other.
     Part part_of(std::size_t apex, std::uint32_t number) const {
         const std::size_t d = tree_.d_;
         std::vector<PolytopePoint> span;  // orthonormal directions from the facet's apex
@@ -262,8 +262,8 @@ struct FaceTree::Path {
     double last = 0;
 };
 
-/// Sign of the position of u's facets relative to those of a path: negative if before, positive if
-/// after, 0 if equal.
+/// Compares the facets that u selects with those of a path: negative if u's come before, positive
+/// if after, 0 if they are equal.
 int FaceTree::side_of(const Path& path, double u) const {
     std::size_t face = faces_.size() - 1;
     for (std::size_t k = 0; k < d_; ++k) {
@@ -303,7 +303,7 @@ void FaceTree::inverse(const double* point, double* cube) const {
             double above = -rest * normal[d_];
             for (std::size_t j = 0; j < d_; ++j) above += normal[j] * left[j];
             normal += d_ + 1;
-            // Prevents that rounding selects a facet next to the apex.
+            // Keeps rounding from selecting a facet next to the apex.
             if (const double w = (above + rounding) / facet.height; w < least) {
                 least = w;
                 weight = above / facet.height;

@@ -59,7 +59,7 @@ class FaceTree {
   private:
     struct Facet {
         std::uint32_t face;
-        double before;  ///< fraction of the face's volume in the facets before this one
+        double before;  ///< fraction of the face's volume over the facets before this one
         double share;
         double height;  ///< height of the apex above the facet
     };
@@ -80,8 +80,8 @@ class FaceTree {
     [[nodiscard]] int side_of(const Path& path, double u) const;
     [[nodiscard]] std::vector<double> means(std::size_t k) const;
 
-    /// Computes a number for each face from those of its facets: sum of share * part(facet's
-    /// number, apex, dimension).
+    /// Computes a number for each face from the numbers of its facets, as the sum of share *
+    /// part(number of the facet, apex, dimension).
     template <class Part>
     [[nodiscard]] std::vector<double> over_faces(const Part& part) const;
 

@@ -48,7 +48,7 @@ struct Cut {
         length = std::sqrt(square);
     }
 
-    /// Distance inside the plane, in units of 1 / length.
+    /// Distance of y inside the plane, in units of 1 / length.
     [[nodiscard]] DoubleDouble slack(const Precise& y, std::size_t d) const {
         DoubleDouble sum{bound};
         for (std::size_t k = 0; k < d; ++k) sum = sum - DoubleDouble{normal[k]} * y[k];
@@ -182,8 +182,8 @@ class DoubleDescription {
     /// Indices of planes whose vertices are not all on another plane.
     std::vector<std::size_t> facets() const {
         std::vector<std::size_t> vertices(planes_.size());
-        std::vector<PlaneSet> shared(planes_.size(), PlaneSet().set());  // planes that contain all
-                                                                         // vertices of a plane
+        // For each plane, the planes that contain all of its vertices.
+        std::vector<PlaneSet> shared(planes_.size(), PlaneSet().set());
         for (const Vertex& vertex : vertices_)
             for (std::size_t j = 0; j < planes_.size(); ++j)
                 if (vertex.planes[j]) {
