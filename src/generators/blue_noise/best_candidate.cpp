@@ -415,8 +415,8 @@ class LazySearch {
         winner_ = p;
     }
 
-    /// Distance from p to its nearest point, which is known to be at most `bound`; 0 if it is below
-    /// the best distance so far.
+    /// Distance from p to its nearest point; 0 if it is below the best distance so far.
+    /// @param bound known upper bound of the distance
     [[nodiscard]] double distance_of(const Point& p, double bound) const {
         if (best_ > 0 && points_.any_nearer(p.data(), best_)) return 0;
         const double guess = bound < infinity ? bound : space_.largest_distance();

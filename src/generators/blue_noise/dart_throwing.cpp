@@ -128,7 +128,8 @@ class DenseDarts {
     static constexpr double memory(double points) { return 120 * points; }
 
   private:
-    /// Indexes the points with their radii for this r, which stay upper bounds while r shrinks.
+    /// Indexes the points with their radii for this r. These radii stay upper bounds while r
+    /// shrinks.
     void index(double r) {
         indexed_ = r;
         disks_.emplace(space_, r, times_.size());

@@ -12,8 +12,8 @@
 // With a --density, kernels are as wide as the local spacing of points, and the density attracts as
 // much as the points repel (relaxation/density_relaxation.cpp).
 //
-// Shape   d = 1 ... 4, distances on the torus, which is the unit cube or a box with no side a
-//         thousand times another; a density in 2-D.
+// Shape   d = 1 ... 4, distances on the torus. The torus is the unit cube, or a box with no side a
+//         thousand times another. A density in 2-D only.
 // Cost    O(n) a step: 4096 points in 2-D and 1000 steps take 5 s of processor time; about 10 and
 //         100 times as much in 3-D and 4-D, and 10 times as much with a density.
 // Promise the same bits for any number of threads.

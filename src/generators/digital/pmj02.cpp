@@ -10,8 +10,8 @@
 // They are Sobol's points in two dimensions with nested uniform scrambling: the second coordinate's
 // matrix holds the binomials C(j, k) mod 2 (Pascal's triangle). A search for free intervals would
 // take memory for all points; this gives any point by itself. Every result is a pmj02 sequence, but
-// not every such sequence occurs: the intervals of later points follow from earlier ones by
-// Pascal's matrix, which a search does not require.
+// not every such sequence occurs: here Pascal's matrix determines the intervals of later points
+// from earlier ones, whereas a search chooses them freely.
 //
 // Shape   2 dimensions, indices below 2^53.
 // Cost    O(n), no memory.

@@ -50,7 +50,7 @@ struct Omega {
     }
 };
 
-/// p[j] *= 1 + weight omega((first + j) z / n).
+/// Multiplies each p[j] by 1 + weight omega((first + j) z / n).
 STIPPLE_WIDE void multiply(const Omega& omega, std::uint64_t first, std::size_t count, double z,
                            double weight, double* p) {
     const auto begin = static_cast<double>(first);
@@ -60,7 +60,7 @@ STIPPLE_WIDE void multiply(const Omega& omega, std::uint64_t first, std::size_t 
     }
 }
 
-/// terms[j] = (p[j] - mean) omega((first + j) z / n).
+/// Sets terms[j] to (p[j] - mean) omega((first + j) z / n).
 STIPPLE_WIDE void weigh(const Omega& omega, std::uint64_t first, std::size_t count, double z,
                         double mean, const double* p, double* terms) {
     const auto begin = static_cast<double>(first);
@@ -175,7 +175,7 @@ class Part {
     }
 
   private:
-    /// Collects the products minus their mean, which does not affect the choice.
+    /// Collects the products minus their mean; subtracting it does not affect the choice.
     void gather(std::span<const double> p) {
         const std::span<double> line = correlation_.values();
         double sum = 0;
@@ -297,8 +297,8 @@ std::uint64_t korobov_multiplier(std::uint64_t n, std::span<const double> weight
     double least = std::numeric_limits<double>::infinity();
     for (std::uint64_t t = 0; t < tries; ++t) {
         search_tick(run, t, tries);
-        // Tries all numbers if there is time; otherwise multiples of the golden ratio, which spread
-        // over the range.
+        // Tries all numbers if there is time; otherwise numbers at multiples of the golden ratio,
+        // because these spread over the range.
         const std::uint64_t turn = t * 0x9E3779B97F4A7C15;
         std::uint64_t a =
             1 + (tries == range ? t : static_cast<std::uint64_t>(Wide{turn} * range >> 64));

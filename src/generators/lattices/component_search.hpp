@@ -52,7 +52,8 @@ class CyclicCorrelation {
     std::optional<GroupTransform> transform_;
 };
 
-/// Products p over the components so far, up to a common factor, which does not affect choices.
+/// Products p over the components so far, up to a common factor; the factor does not affect
+/// choices.
 class Products {
   public:
     explicit Products(std::size_t count) : p_(count, 1.0) {}
@@ -65,8 +66,8 @@ class Products {
 
     [[nodiscard]] double mean() const;
 
-    /// Bound on the rounding errors of E with p - mean, by transforms or by sums of products with
-    /// the kernel; rounding is relative to the norms of both.
+    /// Bound on the rounding errors of E, computed from p - mean by transforms or by plain sums:
+    /// relative to the norm of p - mean times that of the kernel.
     [[nodiscard]] double rounding(double kernel_norm) const;
 
   private:
@@ -108,7 +109,8 @@ inline void leave_out(std::span<const std::uint64_t> vector, std::vector<double>
         if (uses[z] > least) error[z] = never;
 }
 
-/// Vector that grows from 1 to one component per weight.
+/// Generating vector with one component per weight: starts with the component 1, and appends the
+/// best next component each time.
 /// @param search has multiply_by(component, weight) and next(vector so far)
 template <class Search>
 std::vector<std::uint64_t> grow_vector(Search&& search, std::span<const double> weights,

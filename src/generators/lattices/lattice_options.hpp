@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Common options of the lattices: the vector, given or from a file, and the weights of
-// coordinates in the search for a vector, which decay like a power or are given one by one.
+// Common options of the lattices: the vector, given or from a file; and the weights of coordinates
+// in the search for a vector. Weights decay like a power or are given one by one.
 #pragma once
 
 #include <cstddef>

@@ -110,7 +110,7 @@ double squared_polynomial_error(std::uint64_t modulus, std::span<const std::uint
                                 std::span<const double> weights) {
     const int m = gf2::degree(modulus);
     const auto digits = static_cast<std::size_t>(m);
-    std::vector<double> kernel{omega(0, m)};  // omega of 0; at j of degree j - 1
+    std::vector<double> kernel{omega(0, m)};  // omega of 0, then of polynomials of degree 0, 1, ...
     for (int j = 0; j < m; ++j) kernel.push_back(omega(std::uint64_t{1} << j, m));
     std::vector<std::uint64_t> shifted;  // q x^t mod modulus for each component
     for (std::uint64_t q : vector)

@@ -5,9 +5,9 @@
 //
 // --radius R     as many points as fit.
 // --n-approx N   about N points: as many as fit with the radius that gives N on average.
-// --count N      exactly N points, as many as fit with some radius, which is searched for. The same
-//                darts mostly leave fewer points for a larger radius, and nearly the same points
-//                for a similar one, so that a few tries, each as long as a run with --radius, find
+// --count N      exactly N points: a search finds a radius with which N points fit. The same darts
+//                mostly leave fewer points for a larger radius, and nearly the same points for a
+//                similar one, so that a few tries, each as long as a run with --radius, find
 //                exactly N. The radius in the provenance is the minimum distance of the points, and
 //                they are maximal for it, too. If the tries skip N, other darts are used. If eight
 //                sets of darts fail, which may happen with a few points only, the surplus of the

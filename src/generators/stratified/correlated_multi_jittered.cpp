@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Correlated multi-jittered points in the plane (Kensler): multi-jittered points with the same
-// order in all columns, and the same in all rows, which spreads them more evenly. With m columns,
-// r = ceil(n / m) rows, and random permutations sigma of the columns and tau of the rows, point s
-// is at
+// order in all columns, and the same in all rows, so that they are spread more evenly. With m
+// columns, r = ceil(n / m) rows, and random permutations sigma of the columns and tau of the rows,
+// point s is at
 //
 //     x = (sigma(s mod m) + (tau(floor(s / m)) + u) / r) / m,        y = (s + v) / n,
 //

@@ -23,7 +23,7 @@ class LatinPlaces {
     /// Sets the boundaries of the strata along each coordinate, including both ends.
     void put_between(std::vector<std::vector<double>> edges) { edges_ = std::move(edges); }
 
-    /// Coordinate of point i, which is in this stratum.
+    /// Coordinate of point i along axis `coordinate`, on which the point is in this stratum.
     [[nodiscard]] double at(std::size_t coordinate, std::uint64_t i, double stratum) const;
     [[nodiscard]] double middle(std::size_t coordinate, double stratum) const;
 

@@ -6,8 +6,8 @@
 // First darts are thrown at the sub-cells that no single disk covers; then at gaps, which are cut
 // down to their open sub-cells round by round. The darts of a tile are sorted by time and tried one
 // after the other: one that keeps its distance becomes a point at once. Only two kinds become
-// pending: darts within two cells of the tile's edge, which an earlier dart of another tile may
-// exclude, and darts too near to a pending one.
+// pending: darts within two cells of the tile's edge, because an earlier dart of another tile may
+// exclude them, and darts too near to a pending one.
 //
 // Cost    O(n) time; on one core 0.4 us a point. Memory: 75 bytes a point; more in boxes fewer
 //         than 64 cells wide.

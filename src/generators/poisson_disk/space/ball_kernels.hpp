@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Open sub-cells of gaps in space, whose 4 x 4 x 4 sub-cells are the bits of a word.
+// Open sub-cells of gaps in space. The 4 x 4 x 4 sub-cells of a gap are the bits of a word.
 //
 // A ball around p covers a sub-cell if it covers the corner farthest from p. The squared distance
-// of that corner is a sum of three squares, one for each direction, which all 64 sub-cells share.
+// of that corner is a sum of three squares, one for each direction. Sub-cells with the same index
+// along a direction share the square for that direction.
 //
 // Promise a sub-cell that is not open is covered by a single ball, and not within float_slack of
 //         its rim.

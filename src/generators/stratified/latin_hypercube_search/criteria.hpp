@@ -81,8 +81,8 @@ class Criterion {
     virtual Score score_below(const Score& other) = 0;
 };
 
-/// Criterion of a design, which only exchange() updates. Pairs of fixed rows do not count. Long
-/// computations end when the run is stopped. @throws Error(cancelled)
+/// Criterion of a design. It follows later changes of the design only by exchange(). Pairs of fixed
+/// rows do not count. Long computations end when the run is stopped. @throws Error(cancelled)
 std::unique_ptr<Criterion> make_criterion(const Objective& objective, const Design& design,
                                           const Rules& rules, const RunContext& run = {});
 std::unique_ptr<Criterion> pair_criterion(const Objective& objective, const Design& design,
