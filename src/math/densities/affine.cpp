@@ -184,7 +184,7 @@ class AffineReader {
         at_ = std::min(at_ + 1, text_.size());
     }
 
-    /// Value of the text from `start` to the current position, which must be a formula without
+    /// Value of the text from `start` to the current position; the text must be a formula without
     /// variables.
     Affine constant(std::size_t start) const {
         Affine all{std::vector<double>(dimension_)};

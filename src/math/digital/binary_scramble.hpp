@@ -33,8 +33,8 @@ std::uint64_t unit_to_fraction(double x);
 /// Random digital shift of a coordinate.
 std::uint64_t binary_shift(std::uint64_t seed, std::size_t coordinate);
 
-/// Columns of a random nonsingular lower triangular matrix; column j is the image of digit j, which
-/// is bit 63 - j.
+/// Columns of a random nonsingular lower triangular matrix. Column j is the image of digit j; digit
+/// j is bit 63 - j of a word.
 std::array<std::uint64_t, 64> binary_matrix(std::uint64_t seed, std::size_t coordinate);
 
 /// Nested uniform (Owen) scrambling of one coordinate.

@@ -106,7 +106,7 @@ class Sweep {
         keys_.set(position_of_[point], static_cast<std::uint32_t>(key));
     }
 
-    /// The point with this key, which must not be 0.
+    /// The point with this key. Requires key > 0.
     [[nodiscard]] std::uint32_t point_of(std::uint32_t key) const {
         return grid_.order[1][(key - 1) % grid_.count];
     }

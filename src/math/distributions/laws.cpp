@@ -204,7 +204,7 @@ struct Triangular {
     std::pair<double, double> support() const { return {low, high}; }
 };
 
-/// Standard normal quantile, from either tail.
+/// Standard normal quantile: the x whose probability in the given tail is p.
 double standard_quantile(double p, Tail tail) {
     const double z = normal_quantile(p);
     return tail == Tail::lower ? z : -z;

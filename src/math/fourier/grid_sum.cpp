@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::uint64_t block = std::uint64_t{1} << 18;  // cells of a block
 
-// Adding 1.5 x 2^52 units rounds to a multiple of the unit, which is then in the last bits.
+// Adding 1.5 x 2^52 units rounds a number to a multiple of the unit, and puts the multiple into the
+// last bits of the double.
 constexpr double coarse_unit = 0x1p-21;
 constexpr double fine_unit = 0x1p-64;
 constexpr double coarse_magic = 0x1.8p52 * coarse_unit;

@@ -116,9 +116,9 @@ inline double normal_quantile(double p) {
     return detail::normal_quantile(p - 0.5, std::min(p, 1 - p));
 }
 
-/// The x with Phi(x) = p, for p in [0, 1], raised to 1e-300 if positive. p = 0 is replaced by
-/// 2^-54, the middle of the lowest step of random numbers: x = -8.2924. p = 1, which random numbers
-/// never reach, is replaced by 1 - 2^-55: x = 8.3744.
+/// The x with Phi(x) = p, for p in [0, 1]. A positive p below 1e-300 is raised to 1e-300. p = 0 is
+/// replaced by 2^-54, the middle of the lowest step of random numbers: x = -8.2924. p = 1, which
+/// random numbers never reach, is replaced by 1 - 2^-55: x = 8.3744.
 inline double bounded_normal_quantile(double p) {
     return detail::normal_quantile(p - 0.5, detail::bounded_tail(p));
 }

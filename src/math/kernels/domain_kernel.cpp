@@ -79,7 +79,7 @@ class Marginals {
 
     DomainPtr domain_;
     Box box_;
-    std::vector<double> inside_;  ///< a point inside, of which one coordinate at a time is changed
+    std::vector<double> inside_;  ///< a point of the domain; one coordinate at a time is changed
     std::vector<bool> falls_;     ///< true if the cube's coordinate is 1 - F
 };
 

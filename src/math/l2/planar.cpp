@@ -255,7 +255,8 @@ std::vector<Item> by_first_axis(const PointSet& points, const RunContext& run) {
     return items;
 }
 
-/// V of an axis, from moments of the other coordinate: `alone`, and multiplied by t in `with_t`.
+/// Sums V of an axis (see the top), from the moments of the other coordinate w: those of w alone in
+/// `alone`, and those multiplied by the coordinate t on this axis in `with_t`.
 PlaneSums::Symmetric along(const AxisSums& sums, const std::array<Integer, 4>& alone,
                            const std::array<Integer, 4>& with_t, const Integer& sum_t) {
     const Integer n = alone[0];

@@ -164,7 +164,7 @@ class CoveringBound {
         return column;
     }
 
-    /// The bound for the current weights, from the formula, which holds for any weights.
+    /// The bound for the current weights, by the formula at the top. It holds for any weights.
     [[nodiscard]] double value(const Point& half) const {
         double total = 0;
         double norms = 0;

@@ -95,8 +95,8 @@ class GridFrame {
         return static_cast<std::int64_t>(std::clamp(place, 0.0, last));
     }
 
-    /// Squared distance of p to cell `cell` in direction k, which may be outside the box; never too
-    /// large.
+    /// Lower bound on the squared distance in direction k from a position to cell `cell`, which may
+    /// be outside the box.
     [[nodiscard]] double gap(std::size_t k, double place, std::int64_t cell) const {
         const auto low = static_cast<double>(cell);
         place = std::clamp(place, 0.0, static_cast<double>(counts_[k]));  // moved to the box

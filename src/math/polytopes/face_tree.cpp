@@ -42,10 +42,10 @@ STIPPLE_WIDE [[gnu::flatten]] void roots(double* x, double m, std::size_t rows) 
 }
 
 // Uniform weights of a simplex, w_0, w_1, ... >= 0 with sum 1, are split off one after another. If
-// the previous weights leave r, and m weights follow, then the next weight leaves r xi^(1 / m), so
-// that large weights correspond to small xi, which have the finest resolution, and rounding errors
-// are below 2^-52 everywhere (M. Rosenblatt, Annals of Mathematical Statistics 23 (1952) 470-472,
-// doi:10.1214/aoms/1177729394).
+// the previous weights leave r, and m weights follow, then the next weight leaves r xi^(1 / m).
+// Large weights correspond to small xi, where doubles have the finest resolution, so rounding
+// errors are below 2^-52 everywhere (M. Rosenblatt, Annals of Mathematical Statistics 23 (1952)
+// 470-472, doi:10.1214/aoms/1177729394).
 
 /// Splits the next weight off each row's rest, and stores it in place of xi; 6 ns on one core.
 void break_off(double* xi, double* rest, std::size_t m, std::size_t rows) {

@@ -287,8 +287,8 @@ class CellBounder {
             bins.back() |= candidate;
     }
 
-    /// Lists the candidates of an axis with c_k(y) for open boxes, which exclude the point at their
-    /// end, and -c_k(y) for closed ones.
+    /// Lists the candidates of an axis, with c_k(y) for open boxes and -c_k(y) for closed ones. An
+    /// open box excludes the points at its end, a closed one includes them.
     void list_candidates(std::size_t k) {
         const auto bins = std::span(bins_[k]).subspan(dummy_bins);
         auto& [found, ranks, counts] = candidates_[k];

@@ -17,11 +17,11 @@ namespace stipple::discrepancy::star {
 /// is inside if its rank is below y.
 Cell whole_cell(const BoxGrid& grid, Side side);
 
-/// The points that can matter in a cell, axis by axis, and the number of points that are inside all
-/// its boxes and were dropped.
+/// The points that can affect a cell, with ranks stored axis by axis; `decided` is the number of
+/// points that are inside all boxes of the cell and were dropped.
 struct Active {
     std::size_t size = 0;
-    /// Number of points below hi, which come first; the others are on a face at hi.
+    /// Number of points below hi on all axes. These come first; the others are on a face at hi.
     std::size_t inside = 0;
     std::uint64_t decided = 0;
     std::vector<std::int32_t> ranks;

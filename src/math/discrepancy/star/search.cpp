@@ -125,7 +125,8 @@ SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const R
 
 double search_bytes(std::size_t count, std::size_t dimension, unsigned threads) {
     // Each thread keeps the points of its first cell and of all smaller cells down to the current
-    // one, which have together about as many; another copy covers the scratch space of the bounds.
+    // one. The smaller cells have together about as many points as the first. A third copy covers
+    // the scratch space of the bounds.
     constexpr double copies = 3;
     return (1 + copies * threads) * static_cast<double>(count) * static_cast<double>(dimension) *
            sizeof(std::int32_t);
