@@ -114,7 +114,7 @@ struct Generator {
     /// @throws Error(usage) for counts and dimensions it cannot make, naming those it can
     std::function<Plan(const Request&, const Values&)> plan = {};
 
-    /// Exactly one of `sequence` and `set` is set, according to traits.sequence. A sequence
+    /// Exactly one of `sequence` and `set` is given, according to traits.sequence. A sequence
     /// that takes long to construct reports progress up to 0.99 and can be stopped.
     std::function<std::unique_ptr<Sequence>(const Plan&, const Values&, const RunContext&)>
         sequence = {};

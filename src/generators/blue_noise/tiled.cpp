@@ -18,8 +18,7 @@
 // rank 1, and so on. The last rank has only m = n - K^2 (t - 1) points, spread evenly over the
 // tiles: the j-th is in tile floor(j K^2 / m).
 //
-// --bounds    K x L tiles, which are nearly squares, in a box that is not a square: just as many as
-//             needed.
+// --bounds    K x L tiles in a box that is not a square: nearly squares, and no more than needed.
 //             The tile is optimised with the proportions that it has in the box, so the set is
 //             even and periodic there. Points stay in [0, 1)^2 until they are scaled.
 // --density   tiles of t = ceil((n + 2 sqrt(n)) top / K^2) points, top the largest density over its

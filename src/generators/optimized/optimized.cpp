@@ -9,9 +9,8 @@
 // The method depends on the measure and the numbers of axes d and points n:
 //
 //     d = 1        (i + 1/2) / n, or for the dispersion (i + 1) / (n + 1): optimal
-//     n = 1        (x, ..., x) with x + x^d = 1 for boxes at the origin, the centre for other
-//     boxes:
-//                  optimal
+//     n = 1        boxes at the origin: (x, ..., x) with x + x^d = 1; other boxes: the centre.
+//                  Optimal
 //     star, d = 2  a search over the orders of the points by x and by y, each solved exactly
 //                  (planar_order.hpp, order_search.hpp)
 //     others       descents along the gradient from many sets (coordinate_search.hpp), over all

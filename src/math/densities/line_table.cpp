@@ -245,8 +245,8 @@ double mass_share(double a, double b, double t) {
 LineTable::LineTable(std::vector<LinePiece> pieces) : pieces_(std::move(pieces)) {
     double top = 0;
     for (const LinePiece& piece : pieces_) top = std::max({top, piece.f_low, piece.f_high});
-    // Densities may have any scale. Scaling the largest to 2^500, less for large ranges, avoids
-    // that masses overflow, and small densities keep their digits.
+    // Densities may have any scale. Scaling the largest to 2^500, less for large ranges, keeps
+    // masses from overflowing and preserves the digits of small densities.
     const double range = pieces_.back().x_high - pieces_.front().x_low;
     const int down = std::ilogb(top);
     const int lift = 500 - std::max(0, std::ilogb(range)) - down;

@@ -85,7 +85,7 @@ DoubleDouble total_of(const LaneSums& sums) {
     return total;
 }
 
-/// A block of rows: sums over the pairs of its points with those of other blocks.
+/// A block of rows, for sums over the pairs of its points with the points of other blocks.
 class Rows {
   public:
     Rows(const BlockTable& table, const PairKernel& kernel, std::size_t block)

@@ -102,7 +102,7 @@ class FixedPositions {
 
     /// Whether a point in the 25 cells from `first` on covers a place in the middle one.
     /// @param sure squared distance below which a point is a hit
-    /// @param possible squared distance from which on it is none
+    /// @param possible squared distance from which on it is not a hit
     [[nodiscard, gnu::always_inline]] Hit hit(std::size_t first, FixedPosition place,
                                               std::int32_t sure, std::int32_t possible) const {
         const FixedPosition* row = positions_ + first;
