@@ -19,7 +19,8 @@
 
 namespace stipple {
 
-/// Rows in that order; points chosen at the same radius keep their relative order.
+/// Rows in the order in which points are chosen; points chosen at the same radius keep their
+/// relative order.
 /// @param radius lower bound of the distances between points
 Rows spread_out(std::span<const double> rows, const BoxSpace& space, double radius,
                 const RunContext& run);

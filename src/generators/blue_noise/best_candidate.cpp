@@ -443,7 +443,7 @@ class LazySearch {
     CoveringBound<D> covering_;
     double open_size_ = 1;  ///< cells with more expected candidates are halved, not opened
     double all_ = 1;        ///< number of candidates for the current point
-    double best_ = 0;       ///< distance of the best of them so far
+    double best_ = 0;       ///< distance of the best candidate so far to its nearest point
     Point winner_{};
 };
 
@@ -451,8 +451,8 @@ class LazySearch {
 /// ten in c. Measured for 3000 to 300 000 points.
 constexpr std::array<double, 3> cell_bytes{700, 1500, 5800};
 
-/// Largest dimension with cells. Beyond, making all candidates is faster for fewer than 10^4.5
-/// points.
+/// Largest dimension in which cells are used. In more dimensions, making all candidates is faster
+/// for fewer than 10^4.5 points.
 constexpr std::size_t most_lazy = cell_bytes.size();
 
 template <std::size_t D>

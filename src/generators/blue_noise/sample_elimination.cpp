@@ -238,8 +238,8 @@ double radius_for(const Crowd& crowd, std::uint64_t kept) {
     return packing_radius(static_cast<double>(kept), crowd.extent.dimension, crowd.extent.measure);
 }
 
-/// Removes copies of other points until `kept` points or no copies are left. Returns those removed,
-/// in order: copies of the most frequent points first.
+/// Removes copies of other points until `kept` points or no copies are left. Returns the removed
+/// copies, in order: those of the most frequent points first.
 std::vector<std::uint32_t> take_copies(const Crowd& crowd, std::vector<std::uint32_t>& points,
                                        std::uint64_t kept) {
     std::vector<std::uint32_t> gone;
@@ -254,7 +254,7 @@ std::vector<std::uint32_t> take_copies(const Crowd& crowd, std::vector<std::uint
     return gone;
 }
 
-/// Eliminates points (row numbers) until `kept` are left. Returns those removed, in order.
+/// Eliminates points (row numbers) until `kept` are left. Returns the removed points, in order.
 std::vector<std::uint32_t> thin(const Crowd& crowd, std::vector<std::uint32_t>& points,
                                 std::uint64_t kept, const RunContext& run) {
     const std::size_t d = crowd.space.box.dimension();

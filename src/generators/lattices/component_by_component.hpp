@@ -38,7 +38,7 @@ std::vector<std::uint64_t> component_by_component(std::uint64_t n, std::span<con
                                                   const RunContext& run);
 
 /// Multiplier a, prime to n and at most n / 2, of the Korobov lattice z_k = a^k with the least e^2.
-/// Tries all multipliers or, if there are more than `tries`, that many spread over the range.
+/// Tries all multipliers or, if there are more than `tries`, only `tries` spread over the range.
 std::uint64_t korobov_multiplier(std::uint64_t n, std::span<const double> weights,
                                  std::uint64_t tries, const RunContext& run);
 

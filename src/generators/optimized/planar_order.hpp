@@ -118,8 +118,8 @@ class PlanarOrder {
     std::vector<Bound> cycle_;  ///< proves that no lower level is possible
     std::vector<Bound> saved_;
 
-    std::vector<Node> from_;              ///< node that bounds a node moved in this era
-    std::vector<std::uint8_t> by_order_;  ///< whether that bound is the order of neighbours
+    std::vector<Node> from_;              ///< for a node moved in this era: the node that bounds it
+    std::vector<std::uint8_t> by_order_;  ///< for the same: whether it is bounded as a neighbour
     std::vector<std::uint32_t> moved_in_;
     std::uint32_t era_ = 0;
     Node met_ = 0;  ///< node at which a cycle closed

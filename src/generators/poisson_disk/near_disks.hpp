@@ -6,7 +6,7 @@
 // On a line of sub-cells along the first direction, a disk covers those between two ends, which
 // take one square root:
 //
-//     |x_1 - p_1| < sqrt(1 - sum_{k > 1} y_k^2),    y_k the distance from p_k to the far face.
+//     |x_1 - p_1| < sqrt(1 - sum_{k > 1} y_k^2),  y_k the distance from p_k to the line's far face.
 //
 // Shape   D = 2 ... 6.
 // Cost    eight lines, or eight disks, at a time.

@@ -199,7 +199,8 @@ Packing pack(const BoxSpace& space, const Plan& plan, const Values& options,
         return {maximal_disks(space, r, r, plan.seed, run), r};
     }
     if (plan.count == 1) return single(space, plan.seed);
-    // With the largest distance as radius, disks leave isolated places, which rounding may hide.
+    // If the radius were the largest distance in the box, a disk would leave only isolated places
+    // open, which rounding may hide.
     const double most = space.largest_distance();
     const double typical = typical_radius(space, static_cast<double>(plan.count));
     const SearchGoal goal{plan.count, plan.dimension, std::min(typical, 0.99 * most), most};

@@ -35,7 +35,7 @@ template <std::size_t D>
 struct Addition {
     std::array<double, D> at;
     TileCell<D> cell;  ///< from the tile's first cell
-    bool own;          ///< whether it belongs to the tile's points()
+    bool own;          ///< whether the point belongs to the tile's points()
 };
 
 /// Common part of all tiles: cells, neighbours, pending darts and points. The tile of a sampler

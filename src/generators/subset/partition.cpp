@@ -58,7 +58,8 @@ class Trade {
         }
     }
 
-    /// Exchanges points until no exchange helps, in at most 8 sweeps; returns their number.
+    /// Exchanges points until no exchange helps, in at most 8 sweeps; returns the number of
+    /// exchanges.
     std::size_t go() {
         constexpr int most_sweeps = 8;
         std::size_t all = 0;

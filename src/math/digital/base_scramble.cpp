@@ -236,7 +236,7 @@ void BaseOwen::fill_binary(std::uint64_t first, std::size_t count, double* out,
 struct BaseOwen::Stretch {
     std::uint64_t low;  ///< low digits of the first number
     std::uint64_t high;
-    std::size_t count;  ///< at most `lanes`
+    std::size_t count;  ///< how many numbers, at most `lanes`
 };
 
 /// Appends to each image of a stretch the image of `digit` at position `depth`. The digits before

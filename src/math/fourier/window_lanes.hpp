@@ -99,7 +99,7 @@ constexpr std::size_t vectors_of(std::size_t fours) { return (4 * fours + lanes 
 template <std::size_t Dimension, std::size_t Fours>
 struct Chunk {
     alignas(64) Coordinates<Dimension> axes;
-    alignas(64) Coordinates<Dimension> t;  ///< position in the table's piece
+    alignas(64) Coordinates<Dimension> t;  ///< position in a piece of the window's table
     alignas(64) std::array<std::array<std::int32_t, chunk>, Dimension> piece;
     alignas(64) std::array<std::int32_t, chunk> corner;  ///< first cell in the buffer
     alignas(

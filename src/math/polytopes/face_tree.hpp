@@ -66,7 +66,7 @@ class FaceTree {
     struct Face {
         std::uint32_t apex;
         std::uint32_t dimension;
-        std::size_t first;  ///< first facet that does not contain the apex; a vertex has none
+        std::size_t first;  ///< index of the first facet without the apex; a vertex has no facets
         std::size_t count;
     };
     struct Path;

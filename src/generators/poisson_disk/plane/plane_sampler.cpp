@@ -108,8 +108,8 @@ class Thrower {
         work_.pending.push_back(dart);
     }
 
-    /// Place of a dart, from the tile's first cell, in cells. Digits that a dart does not store are
-    /// derived from the others.
+    /// Place of a dart, from the tile's first cell, in cells. A dart on a sub-cell stores only the
+    /// first digits of its place; a hash of them gives further digits.
     [[nodiscard]] Point place_of(const Dart& d) const {
         if (!work_.places.empty()) return work_.places[d.detail];
         const std::uint64_t more = SplitMix64(std::uint64_t{d.x} << 32 | d.y).next();

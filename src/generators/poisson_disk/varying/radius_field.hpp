@@ -96,7 +96,7 @@ class RadiusField {
   private:
     struct Level {
         std::array<std::size_t, 2> count;     ///< columns and rows
-        std::array<std::uint32_t, 2> joined;  ///< 2^joined cells along each direction
+        std::array<std::uint32_t, 2> joined;  ///< a node joins 2^joined cells along each direction
         std::vector<double> least;
         std::vector<double> most;  ///< empty on level 0, where it is the same as `least`
     };

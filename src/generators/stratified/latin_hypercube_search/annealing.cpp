@@ -13,9 +13,10 @@
 namespace stipple::latin_hypercube_search {
 namespace {
 
-constexpr double piece = 1024;         // trials between two changes of the accepted fraction
-constexpr double gain = 0.02;          // change of the temperature's logarithm per accepted trial
-constexpr double polish_from = 0.8;    // fraction of the trials after which polishing begins
+constexpr double piece = 1024;  // trials between two changes of the accepted fraction
+constexpr double gain = 0.02;   // change of the temperature's logarithm per accepted trial
+// Polishing: the last trials of maximin, which search beyond the value reached.
+constexpr double polish_from = 0.8;    // fraction of the trials before polishing
 constexpr double polish_share = 2e-3;  // accepted fraction at the start of polishing
 
 }  // namespace
