@@ -225,8 +225,8 @@ TEST(Report, RefusesConditionsThatNeverHold) {
             EXPECT_THAT(outcome.err, HasSubstr(option));
         }
     };
-    expect("chi-square.verdict==foo", "it is uniform, non-uniform or stratified");
-    expect("star-discrepancy.exact==1", "it is true or false");
+    expect("chi-square.verdict==foo", "possible values: uniform, non-uniform or stratified");
+    expect("star-discrepancy.exact==1", "possible values: true or false");
     expect("star-discrepancy=1", "did you mean '=='?");
     expect("l2-discrepancy>1", "its keys are l2-discrepancy.star.value, ");
     expect("t-value>1", "its keys are t-value.t, ");

@@ -41,14 +41,14 @@ double far_ratio(double x) {
     return (std::numbers::inv_sqrtpi - y * ratio) / x;
 }
 
-constexpr std::size_t rows_at_once = 128;
+constexpr std::size_t numbers_at_once = 128;
 
 /// Computes quantiles without the far tail. Returns whether all are valid; otherwise the caller
 /// computes the batch again. The marks are 16-bit, so that a vector holds many and many chains of
 /// operations run in parallel; Clang needs a pragma for that.
 STIPPLE_WIDE [[gnu::flatten]] bool quantiles(const double* p, double* x, std::size_t count) {
     constexpr double far = 1.4e-11;  // a little above exp(-25)
-    std::array<std::uint16_t, rows_at_once> marks;
+    std::array<std::uint16_t, numbers_at_once> marks;
 #ifdef __clang__
 #pragma clang loop interleave_count(8)
 #endif
@@ -81,9 +81,9 @@ double error_function(double x) {
 }
 
 void bounded_normal_quantiles(std::span<double> p) {
-    std::array<double, rows_at_once> x;
-    for (std::size_t first = 0; first < p.size(); first += rows_at_once) {
-        const auto some = p.subspan(first, std::min(rows_at_once, p.size() - first));
+    std::array<double, numbers_at_once> x;
+    for (std::size_t first = 0; first < p.size(); first += numbers_at_once) {
+        const auto some = p.subspan(first, std::min(numbers_at_once, p.size() - first));
         const bool done = quantiles(some.data(), x.data(), some.size());
         for (std::size_t i = 0; i < some.size(); ++i)
             some[i] = done ? x[i] : bounded_normal_quantile(some[i]);
