@@ -102,8 +102,8 @@ std::vector<PointSet> named(std::vector<PointSet> sets, const Sources& from,
 
 std::vector<std::string> input_names(const Sources& from) {
     if (from.inputs.empty() && !from.generate.empty()) return {};
-    const auto files = named_files(from);
-    return from.concat ? std::vector{join(files, ", ")} : files;
+    const auto names = named_files(from);
+    return from.concat ? std::vector{join(names, ", ")} : names;
 }
 
 std::string only_input(const Sources& from, const std::string& hint) {
@@ -335,12 +335,12 @@ SharedSet shared_files(const Sources& from, const Analyzer& analyzer, const std:
     const auto open = [&from, run, strengths](const std::string& path) {
         return open_file(path, from, strengths, run);
     };
-    const SharedSet files = shared_in_files(from.inputs, open, ranks, run);
+    const SharedSet shared = shared_in_files(from.inputs, open, ranks, run);
     Arrival points =
         arrival_of(*open(from.inputs.front()), !strengths.empty(), analyzer, from, run);
-    points.count = files.points.count;
+    points.count = shared.points.count;
     return {.points = points, .from = [=, &analyzer, &from](std::uint64_t first) {
-                return within_bounds(files.from(first), points, first, analyzer, from);
+                return within_bounds(shared.from(first), points, first, analyzer, from);
             }};
 }
 

@@ -60,14 +60,14 @@ void within_threads(const RunContext& run, const std::function<void()>& work) {
 void for_each_block(const RunContext& run, std::uint64_t count, std::uint64_t size,
                     const std::function<void(const Block&)>& body) {
     const std::size_t blocks = block_count(count, size);
-    const auto block = [&](std::size_t b) {
+    const auto block_at = [&](std::size_t b) {
         const std::uint64_t first = b * size;
         return Block{first, first + std::min(size, count - first), b};
     };
     if (blocks <= 1 || run.thread_count() == 1) {
         for (std::size_t b = 0; b < blocks; ++b) {
             run.check_stop();
-            body(block(b));
+            body(block_at(b));
             run.tick(b + 1, blocks);
         }
         return;
@@ -79,7 +79,7 @@ void for_each_block(const RunContext& run, std::uint64_t count, std::uint64_t si
     within_threads(needed, [&] {
         tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
             run.check_stop();
-            body(block(b));
+            body(block_at(b));
             if (!run.progress) return;
             const std::lock_guard lock(reporting);
             run.tick(++done, blocks);

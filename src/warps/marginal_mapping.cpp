@@ -14,13 +14,13 @@ namespace stipple::warps {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double least = 1e-300;
+constexpr double least_number = 1e-300;
 
-/// Copies numbers to u and replaces those below `least`.
+/// Copies numbers to u and replaces those below `least_number`.
 STIPPLE_WIDE void raise(std::span<double> numbers, double* u) {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         u[i] = numbers[i];
-        numbers[i] = std::max(u[i], least);
+        numbers[i] = std::max(u[i], least_number);
     }
 }
 
@@ -47,8 +47,10 @@ class MarginalLine final : public LineDistribution {
         auto& [low, high] = inside_;
         if (std::isinf(low)) low = std::numeric_limits<double>::lowest();
         if (std::isinf(high)) high = std::numeric_limits<double>::max();
-        if (!has_density(ends_.first)) low = low == 0 ? least : std::nextafter(low, infinity);
-        if (!has_density(ends_.second)) high = high == 0 ? -least : std::nextafter(high, -infinity);
+        if (!has_density(ends_.first))
+            low = low == 0 ? least_number : std::nextafter(low, infinity);
+        if (!has_density(ends_.second))
+            high = high == 0 ? -least_number : std::nextafter(high, -infinity);
     }
 
     /// xi = 0 and 1 map to finite ends, unless the density is infinite there. Rounding of other xi

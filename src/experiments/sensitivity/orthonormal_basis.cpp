@@ -89,7 +89,7 @@ Polynomials legendre_polynomials(std::span<const double> u, std::size_t max_degr
 Polynomials sample_polynomials(std::span<const double> x, std::size_t max_degree) {
     std::vector<double> values(x.begin(), x.end());
     std::ranges::sort(values);
-    values.erase(std::ranges::unique(values).begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
     const Distribution law = distribution_of(x, values);
     std::vector<std::vector<double>> polynomials = {std::vector<double>(values.size(), 1.0)};
     while (polynomials.size() <= max_degree && polynomials.size() < values.size())

@@ -247,18 +247,18 @@ void Polytope::map_some(const Group& group, std::span<const double> cube,
     const std::size_t d = dimension();
     const std::size_t rows = cube.size() / d;
     const std::size_t size = group.coordinates.size();
-    std::array<std::array<double, FaceTree::some_rows>, most_polytope_dimensions> numbers;
+    std::array<std::array<double, FaceTree::some_rows>, most_polytope_dimensions> gathered;
     std::array<double*, most_polytope_dimensions> columns;
     for (std::size_t j = 0; j < size; ++j) {
-        columns[j] = numbers[j].data();
-        for (std::size_t i = 0; i < rows; ++i) numbers[j][i] = cube[i * d + group.coordinates[j]];
+        columns[j] = gathered[j].data();
+        for (std::size_t i = 0; i < rows; ++i) gathered[j][i] = cube[i * d + group.coordinates[j]];
     }
     group.tree.forward(std::span(columns).first(size), rows);
     for (std::size_t j = 0; j < size; ++j) {
         const std::size_t k = group.coordinates[j];
         const double extent = group.frame.extent(j);
         for (std::size_t i = 0; i < rows; ++i)
-            image[i * d + k] = std::clamp(group.frame.low[j] + numbers[j][i] * extent,
+            image[i * d + k] = std::clamp(group.frame.low[j] + gathered[j][i] * extent,
                                           around_.low[k], around_.high[k]);
     }
 }

@@ -97,7 +97,7 @@ void note_doubled(const TriangleMesh& mesh, const std::string& name, const RunCo
         digits.push_back(all);
     }
     std::ranges::sort(digits);
-    const auto doubled = std::ranges::unique(digits).size();
+    const auto doubled = digits.end() - std::unique(digits.begin(), digits.end());
     if (doubled > 0)
         run.notify(
             fmt::format("{}: triangles with the same corners as an earlier one: {}; each of them "
