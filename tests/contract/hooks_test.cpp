@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // What many units share stays small: a virtual function of a shared class is overridden at least
-// twice, and a field of a unit's record is set by at least two units. Both are read outside the
-// header that declares them. What does not follow the rule is listed below with its reason.
+// twice, a field of a unit's record is set by at least two units, and both are used somewhere. What
+// does not follow the rule is listed below with its reason.
 #include <gtest/gtest.h>
 
 #include <algorithm>
