@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "cli/help/plain_page.hpp"
 #include "core/text.hpp"
 
 namespace stipple::cli {
@@ -21,6 +22,9 @@ std::string trimmed(std::string_view text) { return std::string(trim(text)); }
 
 /// Page about other packages, with one table each.
 constexpr std::string_view peers_page = "coming-from";
+
+/// Page that lists the other ones, in groups.
+constexpr std::string_view index_page = "index";
 
 std::string_view text_of(std::string_view name) {
     return std::ranges::find_if(guide(), [&](const GuidePage& page) { return page.name == name; })
@@ -54,14 +58,73 @@ std::string row_as_text(std::string row) {
     return out;
 }
 
+/// Term of a paragraph of the glossary, `**term** (other name, other name): ...`, and its other
+/// names, in lower case.
+std::vector<std::string> terms_of(std::string_view paragraph) {
+    const auto end = paragraph.find("**", 2);
+    std::vector<std::string> terms = {lower_case(paragraph.substr(2, end - 2))};
+    std::string_view rest = paragraph.substr(end + 2);
+    if (rest.starts_with(" (") && rest.find("):") != rest.npos)
+        for (const auto name : split(rest.substr(2, rest.find("):") - 2), ','))
+            terms.push_back(lower_case(trim(name)));
+    for (std::string& term : terms) std::erase(term, '`');
+    return terms;
+}
+
+/// Paragraphs of the glossary, each with its terms.
+std::vector<std::pair<std::vector<std::string>, std::string_view>> glossary() {
+    std::vector<std::pair<std::vector<std::string>, std::string_view>> found;
+    std::string_view rest = text_of("glossary");
+    while (!rest.empty()) {
+        const auto end = std::min(rest.find("\n\n"), rest.size());
+        const std::string_view paragraph = rest.substr(0, end);
+        if (paragraph.starts_with("**")) found.emplace_back(terms_of(paragraph), paragraph);
+        rest.remove_prefix(std::min(end + 2, rest.size()));
+    }
+    return found;
+}
+
 }  // namespace
+
+std::vector<TopicGroup> topic_groups() {
+    std::vector<TopicGroup> groups;
+    for (const auto line : split(text_of(index_page), '\n')) {
+        if (line.starts_with("## ")) groups.push_back({std::string(line.substr(3)), {}});
+        const auto link = line.find("](");
+        if (groups.empty() || !line.starts_with("- [") || link == line.npos) continue;
+        const std::string_view file = line.substr(link + 2, line.find(')', link) - link - 2);
+        const std::string_view name = file.substr(0, file.find(".md"));
+        const auto topic = std::ranges::find(topics(), name, &Topic::name);
+        if (topic != topics().end()) groups.back().topics.push_back(&*topic);
+    }
+    std::erase_if(groups, [](const TopicGroup& group) { return group.topics.empty(); });
+    return groups;
+}
+
+std::vector<std::string> glossary_terms() {
+    std::vector<std::string> all;
+    for (const auto& [terms, paragraph] : glossary())
+        all.insert(all.end(), terms.begin(), terms.end());
+    return all;
+}
+
+std::string glossary_entry(std::string_view word) {
+    const std::string wanted = lower_case(word);
+    const auto matches = [&](const std::string& term) {
+        return term == wanted || term + 's' == wanted;
+    };
+    for (const auto& [terms, paragraph] : glossary())
+        if (std::ranges::any_of(terms, matches)) return plain_page(paragraph);
+    return {};
+}
 
 const std::vector<Topic>& topics() {
     static const auto all = [] {
         std::vector<Topic> found;
         for (const GuidePage& page : guide())
-            if (!std::string_view(page.name).starts_with("verbs/") && page.name != peers_page)
-                found.push_back({page.name, heading_of(page.text), page.text});
+            if (!std::string_view(page.name).starts_with("verbs/") && page.name != peers_page &&
+                page.name != index_page)
+                found.push_back({page.name, heading_of(page.text), plain_page(page.text)});
         return found;
     }();
     return all;

@@ -21,10 +21,25 @@ const std::vector<GuidePage>& guide();
 struct Topic {
     std::string name;
     std::string summary;  ///< the page's heading
-    std::string text;     ///< the whole page; its indented `stipple` lines can be run in order
+    std::string text;     ///< the whole page, as plain_page() returns it
 };
 
 const std::vector<Topic>& topics();
+
+/// Topics under a heading of the guide's index, in its order.
+struct TopicGroup {
+    std::string heading;
+    std::vector<const Topic*> topics;
+};
+
+std::vector<TopicGroup> topic_groups();
+
+/// All terms of the glossary, with their other names, in lower case.
+std::vector<std::string> glossary_terms();
+
+/// Paragraph of the glossary about a term or another name of it; empty if there is none. Ignores
+/// case and the s of a plural.
+std::string glossary_entry(std::string_view word);
 
 /// Equivalents of a name in another package (latinhypercube, qmc.Halton), from the page
 /// coming-from; for a package (scipy), all its rows. Ignores case; empty if nothing is found.
@@ -35,7 +50,7 @@ struct VerbPage {
     std::string summary;
     std::string usage;
     std::string text;
-    std::string examples;  ///< one command per line
+    std::string examples;  ///< one command per line, perhaps with a comment
 };
 
 VerbPage verb_page(const std::string& verb);

@@ -155,28 +155,45 @@ std::vector<std::string> facts_of(const UnitInfo& unit) {
     return facts;
 }
 
-HelpPage page_of_program(HelpPage::Style style) {
-    HelpPage page(style);
-    page.title("stipple", 1, "makes sample sets, warps them, and judges them",
-               "stipple VERB ... [OPTIONS]");
-    page.paragraph(
-        "Sample points for integration, rendering, simulation and experiments: sequences, nets,\n"
-        "lattices and blue noise; maps of them onto other domains and densities; and measures of\n"
-        "how even they are. Only data is written to standard output.");
-    page.section("Verbs");
-    for (const VerbInfo& info : verbs()) page.entry(info.name, info.summary);
-    page.section("Topics");
-    for (const Topic& topic : topics()) page.entry(topic.name, topic.summary);
-    page.paragraph(
-        "'stipple help TOPIC' explains a topic, 'stipple VERB --help' a verb, and\n"
-        "'stipple VERB UNIT --help' a unit. 'stipple --version' names the linked libraries.");
-    page.section("Exit status");
+/// Adds the exit codes and their meanings, which the topic lists as indented lines.
+void add_exit_codes(HelpPage& page) {
     const std::string_view text = std::ranges::find(topics(), "exit-codes", &Topic::name)->text;
     const std::string_view codes = text.substr(text.find("\n    ") + 1);
     for (const auto line : split(codes.substr(0, codes.find("\n\n")), '\n')) {
         const std::string_view entry = trim(line);
         const auto blank = entry.find(' ');
         page.entry(std::string(entry.substr(0, blank)), std::string(trim(entry.substr(blank))));
+    }
+}
+
+/// Adds commands, and the comment of each beside it.
+void add_examples(HelpPage& page, const std::string& examples) {
+    page.section("Examples");
+    std::string lines = "  " + examples;
+    replace_all(lines, "\nstipple", "\n  stipple");
+    page.lines(lines);
+}
+
+/// First screen: what the program is, five commands to begin with, and where to go on.
+HelpPage page_of_program(HelpPage::Style style) {
+    HelpPage page(style);
+    const VerbPage about = verb_page("stipple");
+    page.title("stipple", 1, about.summary, about.usage);
+    page.paragraph(about.text);
+    add_examples(page, about.examples);
+    page.section("Verbs");
+    for (const VerbInfo& info : verbs()) page.entry(info.name, info.summary);
+    for (const TopicGroup& group : topic_groups()) {
+        page.section(group.heading);
+        for (const Topic* topic : group.topics) page.entry(topic->name, topic->summary);
+    }
+    page.paragraph(
+        "'stipple help WORD' explains a topic, a verb, a unit, a term of the field, or what "
+        "another\n"
+        "package calls something; 'stipple list' names all units.");
+    if (page.for_man()) {
+        page.section("Exit status");
+        add_exit_codes(page);
     }
     page.see_also("stipple");
     return page;
@@ -206,10 +223,7 @@ HelpPage page_of_verb(const VerbInfo& info, HelpPage::Style style) {
         page.lines(fmt::format("'stipple {} UNIT --help' shows a unit's own options.", info.name));
     page.section("Options");
     add_common_options(page, info.verb);
-    page.section("Examples");
-    std::string examples = "  " + info.examples;
-    replace_all(examples, "\nstipple", "\n  stipple");
-    page.lines(examples);
+    add_examples(page, info.examples);
     page.see_also("stipple-" + info.name);
     return page;
 }
@@ -280,8 +294,12 @@ HelpPage page_of_topic(const Topic& topic) {
         const std::string_view part = rest.substr(0, end);
         if (part.starts_with("## "))
             page.section(std::string(part.substr(3)));
-        else if (part.starts_with("    "))
+        else if (part.starts_with("### "))
+            page.subsection(std::string(part.substr(4)));
+        else if (part.starts_with("    ") || part.starts_with('|'))
             page.lines(part);
+        else if (part.starts_with("- "))
+            page.lines(filled_page(part, text_columns()));
         else
             page.paragraph(std::string(trim(part)));
         rest.remove_prefix(std::min(end + 2, rest.size()));
@@ -301,10 +319,11 @@ const Topic* find_topic(const std::string& name) {
     for (const VerbInfo& info : verbs()) known.push_back(info.name);
     for (const Kind& kind : catalog())
         for (std::string& unit : names_of(kind)) known.push_back(std::move(unit));
+    for (std::string& term : glossary_terms()) known.push_back(std::move(term));
     fail_with_hint(ErrorKind::usage,
                    nearest_words(name, known).empty() ? "'stipple help' lists topics and verbs"
                                                       : suggest(name, known),
-                   "help: unknown topic, verb or unit '{}'", name);
+                   "help: unknown word '{}': no topic, verb, unit or term", name);
 }
 
 /// Help for a unit named without its verb.
@@ -317,7 +336,10 @@ std::string help_of_unit(const std::string& name) {
         if (const Topic* topic = find_topic(kind.name))
             return filled_page(topic->text, text_columns());
     }
-    if (std::string lines = coming_from(name); !lines.empty()) return lines;
+    std::string found = filled_page(glossary_entry(name), text_columns());
+    if (const std::string lines = coming_from(name); !lines.empty())
+        found += (found.empty() ? "" : "\n") + lines;
+    if (!found.empty()) return found;
     refuse_name(name);
 }
 
