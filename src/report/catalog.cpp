@@ -137,8 +137,9 @@ Json option_json(const Option& option) {
 }
 
 Json unit_json(const UnitInfo& unit, std::string_view kind) {
-    Json out = {{"name", unit.name},     {"aliases", unit.aliases}, {"summary", unit.summary},
-                {"source", unit.source}, {"traits", *unit.traits},  {"options", Json::array()}};
+    Json out = {{"name", unit.name},       {"aliases", unit.aliases}, {"summary", unit.summary},
+                {"source", unit.source},   {"traits", *unit.traits},  {"remarks", unit.remarks},
+                {"options", Json::array()}};
     if (!unit.family.empty()) out["family"] = unit.family;
     if (!unit.strata.empty()) out["strata"] = unit.strata;
     if (unit.stream_version > 0) out["stream_version"] = unit.stream_version;

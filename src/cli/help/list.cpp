@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The verb `list`: all units as text, JSON or Markdown.
+// The verb `list`: all units as text or JSON.
 #include <fmt/format.h>
 
 #include <map>
@@ -53,23 +53,6 @@ std::string list_long(const std::vector<Kind>& kinds) {
     return text;
 }
 
-std::string list_markdown(const std::vector<Kind>& kinds) {
-    std::string text;
-    for (const Kind& kind : kinds) {
-        text += fmt::format("{}| {} | what it is | options |\n|---|---|---|\n",
-                            text.empty() ? "" : "\n", kind.name.substr(0, kind.name.size() - 1));
-        for (const UnitInfo& unit : kind.units) {
-            std::vector<std::string> options;
-            for (const Option& option : unit.options) options.push_back("`--" + option.name + "`");
-            std::vector<std::string> names = {"`" + unit.name + "`"};
-            for (const std::string& alias : unit.aliases) names.push_back("`" + alias + "`");
-            text += fmt::format("| {} | {} ({}) | {} |\n", join(names, ", "), unit.summary,
-                                join(unit.remarks, "; "), join(options, " "));
-        }
-    }
-    return text;
-}
-
 }  // namespace
 
 int ListRequest::perform(Session&) const {
@@ -86,10 +69,9 @@ int ListRequest::perform(Session&) const {
                            "known: generators, scrambles, warps, analyzers, formats",
                            "unknown kind '{}'", wanted);
     }
-    write_text(output.value_or("-"), format == ListFormat::json ? json_of(kinds).dump(2) + "\n"
-                                     : format == ListFormat::markdown ? list_markdown(kinds)
-                                     : full                           ? list_long(kinds)
-                                                                      : list_text(kinds));
+    write_text(output.value_or("-"), json   ? json_of(kinds).dump(2) + "\n"
+                                     : full ? list_long(kinds)
+                                            : list_text(kinds));
     return 0;
 }
 

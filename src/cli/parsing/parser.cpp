@@ -160,17 +160,15 @@ void refuse_second_unit(const Arguments& arguments, const Kind& kind) {
     }
 }
 
-/// Replaces --json and --markdown by --format.
+/// Replaces --json by --format.
 void settle_format(Arguments& arguments) {
-    for (const char* name : {"json", "markdown"}) {
-        if (!arguments.has(name)) continue;
-        std::erase_if(arguments.common, [&](const auto& given) { return given.first == name; });
-        const auto format = std::ranges::find(arguments.common, "format", &Text::first);
-        if (format == arguments.common.end())
-            arguments.common.emplace_back("format", name);
-        else if (format->second != name)
-            fail(ErrorKind::usage, "--{} and --format {}: give one of them", name, format->second);
-    }
+    if (!arguments.has("json")) return;
+    std::erase_if(arguments.common, [](const auto& given) { return given.first == "json"; });
+    const auto format = std::ranges::find(arguments.common, "format", &Text::first);
+    if (format == arguments.common.end())
+        arguments.common.emplace_back("format", "json");
+    else if (format->second != "json")
+        fail(ErrorKind::usage, "--json and --format {}: give one of them", format->second);
 }
 
 /// Adds the options in a unit's spec: `warp disk@4,5` means `warp disk --coordinates 4,5`, and

@@ -178,10 +178,8 @@ struct ReproduceRequest : Request {
     int perform(Session& session) const override;
 };
 
-enum class ListFormat { text, json, markdown };
-
 struct ListRequest : Request {
-    ListFormat format = ListFormat::text;
+    bool json = false;
     bool full = false;
 
     int perform(Session& session) const override;
