@@ -15,7 +15,7 @@ for mean in study.means():
         print(f"{mean.generator:20} n = {mean.count:4}  {mean.mean:.4f}  [{mean.low:.4f}, {mean.high:.4f}]")
 
 # %% [markdown]
-# The sets of the first seed, side by side, and a page with all of their measures.
+# The sets of the first seed in one frame, in colours, and a page with all of their measures.
 # %%
 sets = {name: stipple.generate(name, 256) for name in samplers}
 stipple.report("samplers.html", sets)

@@ -23,14 +23,30 @@ print(stipple.generate("sobol", 4, scramble="owen"))
 # %% [markdown]
 # ## Compare by eye
 #
-# How should 256 points be placed? `random` has clumps and gaps, because nothing keeps independent
-# points apart. `jittered` has one point in each of 16 x 16 cells. Scrambled `sobol` has one in
-# every cell of that grid, and of every other grid of 256 equal cells with 1, 2, 4, ... or 256
-# columns. `poisson-disk` keeps a least distance between any two points.
+# How should 256 points be placed? Four generators answer differently. `random` has clumps and
+# gaps, because nothing keeps independent points apart.
 # %%
 samplers = ["random", "jittered", "sobol:scramble=owen", "poisson-disk"]
 sets = {name: stipple.generate(name, 256) for name in samplers}
-stipple.plot(sets, width=880, height=260)
+print(", ".join(f"{name}: {len(points)} points" for name, points in sets.items()))
+stipple.plot(sets["random"], width=400)
+
+# %% [markdown]
+# `jittered` cuts the square into 16 x 16 cells, called strata, and puts one point at random into
+# each. Large gaps are gone, but two points can still meet at an edge.
+# %%
+stipple.plot(sets["jittered"], width=400)
+
+# %% [markdown]
+# `sobol` has one point in every cell of that grid, too, and of every other grid of 256 equal cells
+# with 1, 2, 4, ... or 256 columns.
+# %%
+stipple.plot(sets["sobol:scramble=owen"], width=400)
+
+# %% [markdown]
+# `poisson-disk` keeps a least distance between any two points. To the eye it looks the most even.
+# %%
+stipple.plot(sets["poisson-disk"], width=400)
 
 # %% [markdown]
 # ## Measure
@@ -49,9 +65,10 @@ print(f"\nThe worst box of random has {worst.points} of 256 points on {worst.vol
 
 # %% [markdown]
 # A spectrum shows evenness at every scale: low frequencies are large distances, and independent
-# points have a power of 1 at all of them. Here it is averaged over directions. Where power is
-# low, the set has no clumps and no gaps of that size. `poisson-disk` is quiet at low
-# frequencies, and has a peak at the distance between its points; such sets are called blue noise.
+# points have a power of about 1 at all of them, up to chance (the grey band). Where the power is
+# low, the set has neither clumps nor gaps of that size. `poisson-disk` has little power at low
+# frequencies, and a peak near the frequency that belongs to the distance between its points. Such
+# sets are called blue noise. (The lower curves tell whether directions differ; here they do not.)
 # %%
 spectra = {name: stipple.analyze("periodogram", sets[name]) for name in ("random", "poisson-disk")}
 for name, spectrum in spectra.items():
@@ -63,18 +80,24 @@ stipple.plot(spectra)
 #
 # Few problems live in a square. A warp moves points from the unit square onto another domain, here
 # a disk, and takes parts of equal area to parts of equal area. A grid shows best what happens: by
-# default its columns become circles and its rows become rays; the concentric method turns squares
-# around the centre into circles.
+# default, its columns become circles and its rows become rays.
 # %%
 grid = stipple.generate("grid", 100)
+stipple.plot(stipple.warp(grid, "disk"), width=400)
+
+# %% [markdown]
+# The concentric method turns squares around the centre into circles. Both methods cover the disk
+# evenly; this one keeps neighbours closer together.
+# %%
+stipple.plot(stipple.warp(grid, "disk", method="concentric"), width=400)
+
+# %% [markdown]
+# Points can also be warped while they are generated. With `return_meta` they carry a dictionary
+# that says how they were made; from it, later calls know that the points lie on a disk.
+# %%
 disk = stipple.generate("sobol", 256, scramble="owen", warp="disk", return_meta=True)
-print(f"The points know their domain: {disk.meta['domain']}")
-stipple.plot({
-    "grid": grid,
-    "polar": stipple.warp(grid, "disk"),
-    "concentric": stipple.warp(grid, "disk", method="concentric"),
-    "sobol on the disk": disk,
-}, width=880, height=260)
+print(f"domain: {disk.meta['domain']}, warps: {disk.meta['warps']}, seed: {disk.meta['seed']}")
+stipple.plot(disk, width=400)
 
 # %% [markdown]
 # ## Test the warp
