@@ -22,14 +22,12 @@ def test_guide_runs(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     pyplot = pytest.importorskip("matplotlib.pyplot")
     pyplot.switch_backend("svg")
-    figure, axes = pyplot.subplots()
-    text = (ROOT / "data/guide/python.md").read_text()
-    code = "\n".join(line[4:] for line in text.splitlines()
-                     if line.startswith("    ") and not line.startswith("    stipple "))
-    names = {"f": lambda x: x.sum(axis=1), "axes": axes}
-    exec("import stipple\ny = stipple.generate('random', n=1024)\n" + code, names)
+    blocks = re.findall(r"```python\n(.*?)```", (ROOT / "data/guide/python.md").read_text(), re.S)
+    names = {}
+    exec("\n".join(blocks), names)
     assert names["x"].shape == (1024, 5) and (tmp_path / "page.html").exists()
-    pyplot.close(figure)
+    assert abs(names["found"].estimate - 1) < 5 * names["found"].standard_error
+    pyplot.close("all")
 
 
 @pytest.mark.parametrize("script", sorted((ROOT / "data/examples").glob("*.py")), ids=lambda p: p.name)
