@@ -58,13 +58,19 @@ def examples(kind, unit, commands):
     return f"## Examples\n\n```text\n{text}```\n" + (f"\nFrom {where}.\n" if where else "")
 
 
+def written(value):
+    """A default as one types it."""
+    if isinstance(value, list):
+        return (" " if value and isinstance(value[0], list) else ",").join(written(part) for part in value)
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
 def option_line(option):
     """An item for an option: its values, default and help."""
     values = "|".join(option.get("choices", [])) or ("" if option["type"] == "flag" else option["type"].upper())
     notes = []
     if option.get("default") not in (None, False, "", []):
-        default = option["default"]
-        notes.append(f"default `{','.join(f'{x:g}' for x in default) if isinstance(default, list) else default}`")
+        notes.append(f"default `{written(option['default'])}`")
     if "range" in option:
         notes.append(f"in {option['range']}")
     if option.get("unit"):
