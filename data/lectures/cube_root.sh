@@ -1,6 +1,6 @@
 #!/bin/sh
 # The density p(x) = 3/2 x^2 on [-1, 1] by inversion: F(x) = (x^3 + 1)/2, so x = cbrt(2 xi - 1).
-# It takes cbrt, as pow of a negative number and 1/3 is no number. E x^2 = 3/5, and
+# It takes cbrt, because pow(-1, 1/3) is not a number. E x^2 = 3/5, and
 # P(|x| < 1/2) = 1/8.
 #
 # The mean of f over the points is the integral of f p. Tolerance: 4096 points of the van der
@@ -9,12 +9,24 @@
 set -e
 stipple generate van-der-corput -n 4096 -w 'power:exponent=2,range=[-1,1]' -o power.json
 
-# mean_is EXACT F
-mean_is() {
-    stipple analyze integration power.json -f text --expression "($2)*3/2*x^2" --exact "$1" \
-        --check 'expression.error>-0.001' --check 'expression.error<0.001'
+# say SENTENCE SLIDE: the sentence, the estimate in report.txt, and the number on the slide.
+say() {
+    LC_ALL=C awk -v text="$1" -v slide="$2" '
+        $1 == "expression.estimate" { printf "%s %.4f (slide: %s", text, $2, slide }
+        $1 == "expression.exact" { print (slide == $2 ? "" : sprintf(" = %.4f", $2)) ")" }
+    ' report.txt
 }
 
-mean_is 0 'x'
-mean_is 0.6 'x^2'
-mean_is 0.125 'abs(x) < 1/2'
+# mean_is SLIDE F SENTENCE
+mean_is() {
+    stipple analyze integration power.json -f text --expression "($2)*3/2*x^2" --exact "$1" \
+        --check 'expression.error>-0.001' --check 'expression.error<0.001' >report.txt
+    say "$3" "$1"
+}
+
+mean_is 0 x 'The mean of x is'
+mean_is 3/5 'x^2' 'The mean of x^2 is'
+mean_is 1/8 'abs(x) < 1/2' 'The share of the points with |x| < 1/2 is'
+
+stipple plot power.json --chart histogram --title 'x = cbrt(2 xi - 1) has the density 3/2 x^2' \
+    --width 640 --height 320 -o cube_root.svg

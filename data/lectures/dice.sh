@@ -1,26 +1,50 @@
 #!/bin/sh
 # Two dice. Joint: every pair has probability 1/36. Conditional: given what the second die shows,
-# every face of the first has 1/6; to condition is to keep the rows with that second face. (Which
-# of the dice is the given one must be said; that the answer is the same is the symmetry's work.)
+# every face of the first has 1/6; to condition is to keep the rows with that second face. (Say
+# which of the dice is given. The answer is the same for both, because dice are alike.)
 set -e
 die='discrete:probabilities=[1,1,1,1,1,1],normalize=true,values=[1,2,3,4,5,6]'
 
-# frequency EXACT CONDITION FILE: the mean of an indicator is the sum of indicator times
-# probability, EXACT for each pair or face that meets the condition. Tolerance: five standard
+# say SENTENCE SLIDE: the sentence, the estimate in report.txt, and the number on the slide.
+say() {
+    LC_ALL=C awk -v text="$1" -v slide="$2" '
+        $1 == "expression.estimate" { printf "%s %.4f (slide: %s", text, $2, slide }
+        $1 == "expression.exact" { print (slide == $2 ? "" : sprintf(" = %.4f", $2)) ")" }
+    ' report.txt
+}
+
+# joint and conditional SLIDE CONDITION SENTENCE: the mean of an indicator is the sum of indicator
+# times probability, SLIDE for each pair or face that meets the condition. Tolerance: five standard
 # errors with fixed seeds, sqrt(1/36 35/36/36000) = 0.00087 and sqrt(1/6 5/6/6000) = 0.0048.
 joint() {
     stipple analyze integration dice.csv -f text --expression "($2)/36" --exact "$1" \
-        --check 'expression.error>-0.0044' --check 'expression.error<0.0044'
+        --check 'expression.error>-0.0044' --check 'expression.error<0.0044' >report.txt
+    say "$3" "$1"
 }
 conditional() {
     stipple analyze integration given.csv --domain "$die" -f text --expression "($2)/6" \
-        --exact "$1" --check 'expression.error>-0.024' --check 'expression.error<0.024'
+        --exact "$1" --check 'expression.error>-0.024' --check 'expression.error<0.024' >report.txt
+    say "$3" "$1"
 }
 
 stipple generate random -n 36000 -w "$die" --meta -o dice.csv
-joint 0.0277777778 'x == 3 && y == 5'
-joint 0.1666666667 'x + y == 7'
+joint 1/36 'x == 3 && y == 5' 'Of all throws, the share with a 3 and then a 5 is'
+joint 1/6 'x + y == 7' 'Of all throws, the share with the sum 7 is'
 grep ',5$' dice.csv | stipple convert - --from csv --column 1 -o given.csv
-conditional 0.1666666667 'x == 3'
+conditional 1/6 'x == 3' \
+    'Of the throws whose second die shows 5, the share with a 3 on the first is'
 grep '^3,' dice.csv | stipple convert - --from csv --column 2 -o given.csv
-conditional 0.1666666667 'x == 5'
+conditional 1/6 'x == 5' \
+    'Of the throws whose first die shows 3, the share with a 5 on the second is'
+
+# 720 throws as dots, each at a random place in the square of its pair. Given the second die,
+# one row remains.
+stipple generate random -n 720 --no-header | LC_ALL=C awk -F , '{
+    x = 0.5 + 6*$1
+    y = 0.5 + 6*$2
+    row = y > 4.5 && y < 5.5
+    print x "," y >(!row ? "others.csv" : x > 2.5 && x < 3.5 ? "pair.csv" : "row.csv")
+}'
+stipple plot others.csv row.csv pair.csv --overlay --labels 'others,second die 5,3 and 5' \
+    --axes 'first die,second die' --title '720 throws of two dice' --width 440 --height 440 \
+    -o dice.svg

@@ -2,26 +2,46 @@
 # Points of the unit disk. r = sqrt(xi) is right: P(r < 1/2) = 1/4, the share of the area.
 # r = xi is naive: P(r < 1/2) = 1/2, as many points in a quarter of the area.
 #
-# Told the domain alone (not --meta, whose method it would make up for), integration takes the points
-# for uniform: the mean of f is the integral of f/pi.
+# Given only the domain, integration takes the points for uniform: the mean of f is the integral of
+# f/pi. (With --meta it would know the method, and correct for its density.)
 # Tolerance: 4096 Halton points are off by 3e-4 and less, where points are dropped by 1.5e-3;
 # 0.003 is twice that.
 set -e
 
-# half_radius EXACT METHOD
-half_radius() {
-    stipple generate halton -n 4096 --start 1 -w "disk:method=$2" |
-        stipple analyze integration -f text --domain disk --expression '(x^2 + y^2 < 1/4)/pi' --exact "$1" \
-            --check 'expression.error>-0.003' --check 'expression.error<0.003'
+# say SENTENCE SLIDE: the sentence, the estimate in report.txt, and the number on the slide.
+say() {
+    LC_ALL=C awk -v text="$1" -v slide="$2" '
+        $1 == "expression.estimate" { printf "%s %.4f (slide: %s)\n", text, $2, slide }' report.txt
 }
 
-half_radius 0.25 polar
-half_radius 0.25 concentric
-half_radius 0.25 rejection
-half_radius 0.5 naive
+# half_radius SLIDE METHOD SENTENCE
+half_radius() {
+    stipple generate halton -n 4096 --start 1 -w "disk:method=$2" --quiet |
+        stipple analyze integration -f text --domain disk --expression '(x^2 + y^2 < 1/4)/pi' \
+            --exact "$1" --check 'expression.error>-0.003' --check 'expression.error<0.003' \
+            >report.txt
+    say "$3" "$1"
+}
 
-# Chi-square with both tails tells: the right one is more even than random, the naive one is wrong.
-stipple generate halton -n 4096 --start 1 -w disk --meta |
-    stipple analyze chi-square -f text --expect stratified
-stipple generate halton -n 4096 --start 1 -w disk:method=naive --meta |
-    stipple analyze chi-square -f text --check 'verdict==non-uniform'
+half_radius 1/4 polar 'With r = sqrt(xi), a quarter of the points lie within half the radius:'
+half_radius 1/4 concentric 'With the concentric map, a quarter lie within half the radius:'
+half_radius 1/4 rejection 'With rejection from a square, a quarter lie within half the radius:'
+half_radius 1/2 naive 'With r = xi (naive), half of the points lie within half the radius:'
+
+# verdict METHOD SLIDE SENTENCE: a chi-square test with both tails. "stratified" is more even than
+# random points, "non-uniform" less.
+verdict() {
+    stipple generate halton -n 4096 --start 1 -w "disk:method=$1" --meta |
+        stipple analyze chi-square -f text --check "verdict==$2" >report.txt
+    awk -v text="$3" -v slide="$2" '
+        $1 == "verdict" { print text, $2, "(slide: " slide ")" }' report.txt
+}
+
+verdict polar stratified 'Chi-square verdict with r = sqrt(xi):'
+verdict naive non-uniform 'Chi-square verdict with r = xi:'
+
+for method in polar naive; do
+    stipple generate halton -n 300 --start 1 -w disk:method=$method -o $method.json
+done
+stipple plot polar.json naive.json --labels 'r = sqrt(xi),r = xi' --width 640 --height 360 \
+    -o disk.svg

@@ -2,17 +2,32 @@
 # Directions from uniform latitude and longitude crowd at the poles: E z^2 = E sin^2 = 1/2.
 # Uniform ones have uniform height z: E z^2 = 1/3.
 #
-# Told the domain alone (not --meta, whose method it would make up for), integration takes the points
-# for uniform: the mean of f is the integral of f/(4 pi). Tolerance: 4096 Halton points are off by less than 1e-6; a
-# thousand times that still tells 1/2 from 1/3.
+# Given only the domain, integration takes the points for uniform: the mean of f is the integral of
+# f/(4 pi). (With --meta it would know the method, and correct for its density.)
+# Tolerance: 4096 Halton points are off by less than 1e-6; a thousand times that still tells 1/2
+# from 1/3.
 set -e
 
-# mean_is EXACT METHOD
-mean_is() {
-    stipple generate halton -n 4096 --start 1 -w "sphere:method=$2" |
-        stipple analyze integration -f text --domain sphere --expression 'z^2/(4*pi)' --exact "$1" \
-            --check 'expression.error>-0.001' --check 'expression.error<0.001'
+# say SENTENCE SLIDE: the sentence, the estimate in report.txt, and the number on the slide.
+say() {
+    LC_ALL=C awk -v text="$1" -v slide="$2" '
+        $1 == "expression.estimate" { printf "%s %.4f (slide: %s)\n", text, $2, slide }' report.txt
 }
 
-mean_is 0.5 naive-lat-long
-mean_is 0.3333333333 z
+# mean_is SLIDE METHOD SENTENCE
+mean_is() {
+    stipple generate halton -n 4096 --start 1 -w "sphere:method=$2" |
+        stipple analyze integration -f text --domain sphere --expression 'z^2/(4*pi)' \
+            --exact "$1" --check 'expression.error>-0.001' --check 'expression.error<0.001' \
+            >report.txt
+    say "$3" "$1"
+}
+
+mean_is 1/2 naive-lat-long 'With uniform latitude and longitude, the mean of z^2 is'
+mean_is 1/3 z 'With uniform height and longitude, the mean of z^2 is'
+
+for method in naive-lat-long z; do
+    stipple generate halton -n 400 --start 1 -w sphere:method=$method -o $method.json
+done
+stipple plot naive-lat-long.json z.json --labels 'uniform latitude,uniform height' \
+    --width 640 --height 360 -o latitude_longitude.svg

@@ -3,25 +3,37 @@
 # 1 = 1 becomes .1 = 1/2, 2 = 10 becomes .01 = 1/4, 3 = 11 becomes .11 = 3/4, and so on.
 set -e
 
-# radical_inverse I: the one point with index I; the mean of x over one point is the point.
+# radical_inverse I SLIDE: the van der Corput sequence from index I, one point long, against the
+# slide's number. Halves of halves are exact, so they are compared as text.
 radical_inverse() {
-    stipple generate van-der-corput -n 1 --start "$1" | stipple analyze integration \
-        --expression x -f text "$2" "$3"
+    x=$(stipple generate van-der-corput -n 1 --start "$1" --no-header)
+    echo "The radical inverse of $1 is $x (slide: $2)"
+    test "$x" = "$2"
 }
 
-# The first eight, as on the slide. Halves of halves are exact, so they are compared with ==.
-radical_inverse 0 --check 'expression.estimate==0'
-radical_inverse 1 --check 'expression.estimate==0.5'
-radical_inverse 2 --check 'expression.estimate==0.25'
-radical_inverse 3 --check 'expression.estimate==0.75'
-radical_inverse 4 --check 'expression.estimate==0.125'
-radical_inverse 5 --check 'expression.estimate==0.625'
-radical_inverse 6 --check 'expression.estimate==0.375'
-radical_inverse 7 --check 'expression.estimate==0.875'
+radical_inverse 0 0
+radical_inverse 1 0.5
+radical_inverse 2 0.25
+radical_inverse 3 0.75
+radical_inverse 4 0.125
+radical_inverse 5 0.625
+radical_inverse 6 0.375
+radical_inverse 7 0.875
 
-# Together they are i/8 in another order, so their star discrepancy is 1/8; that of the
-# textbook's five, 1/2 1/4 3/4 1/8 5/8, is 1/4: all of them lie in [0, 3/4].
+# star_discrepancy SLIDE SENTENCE: the exact star discrepancy of the points on standard input.
+star_discrepancy() {
+    stipple analyze star-discrepancy -f text --check "value==$1" >report.txt
+    awk -v text="$2" -v slide="$1" '
+        $1 == "value" { print text, $2, "(slide: " slide ")" }' report.txt
+}
+
+# The first eight are i/8 in another order, so their star discrepancy is 1/8. The textbook's five,
+# 1/2 1/4 3/4 1/8 5/8, all lie in [0, 3/4]: that box has every point, and 1/4 more than its length.
 stipple generate van-der-corput -n 8 |
-    stipple analyze star-discrepancy -f text --check 'value==0.125'
+    star_discrepancy 0.125 'Together the eight have the star discrepancy'
 stipple generate van-der-corput -n 5 --start 1 |
-    stipple analyze star-discrepancy -f text --check 'value==0.25'
+    star_discrepancy 0.25 'Five from index 1 have the star discrepancy'
+
+# The Hammersley set of 8 points: i/8 to the right, the radical inverse of i upwards.
+stipple plot --generate hammersley -n 8 --axes 'i/8,radical inverse of i' \
+    --title 'Radical inverses in base 2' --width 400 --height 400 -o radical_inverses.svg

@@ -14,24 +14,47 @@
 set -e
 stipple generate halton -n 4096 --start 1 -w 'triangle:vertices=[1,0 0,0 0,1]' -o triangle.json
 
-# mean_is EXACT F
-mean_is() {
-    stipple analyze integration triangle.json -f text --expression "2*($2)" --exact "$1" \
-        --check 'expression.error>-0.001' --check 'expression.error<0.001'
+# say SENTENCE SLIDE: the sentence, the estimate in report.txt, and the number on the slide.
+say() {
+    LC_ALL=C awk -v text="$1" -v slide="$2" '
+        $1 == "expression.estimate" { printf "%s %.4f (slide: %s", text, $2, slide }
+        $1 == "expression.exact" { print (slide == $2 ? "" : sprintf(" = %.4f", $2)) ")" }
+    ' report.txt
 }
 
-mean_is 0.3333333333 'x'
-mean_is 0.3333333333 'y'
-mean_is 0.0555555556 '(x - 1/3)^2'
-mean_is 0.0555555556 '(y - 1/3)^2'
-mean_is -0.0277777778 '(x - 1/3)*(y - 1/3)'
+# mean_is SLIDE F SENTENCE
+mean_is() {
+    stipple analyze integration triangle.json -f text --expression "2*($2)" --exact "$1" \
+        --check 'expression.error>-0.001' --check 'expression.error<0.001' >report.txt
+    say "$3" "$1"
+}
+
+mean_is 1/3 x 'The mean of x is'
+mean_is 1/3 y 'The mean of y is'
+mean_is 1/18 '(x - 1/3)^2' 'The variance of x is'
+mean_is 1/18 '(y - 1/3)^2' 'The variance of y is'
+mean_is -1/36 '(x - 1/3)*(y - 1/3)' 'The covariance of x and y is'
 
 # The marginal: P(x < 1/2) = 1 - (1 - 1/2)^2. The conditional: y/(1 - x) is uniform on [0, 1].
-mean_is 0.75 'x < 1/2'
-mean_is 0.5 'y/(1 - x)'
-mean_is 0.3333333333 '(y/(1 - x))^2'
-mean_is 0.25 'y/(1 - x) < 1/4'
+mean_is 3/4 'x < 1/2' 'Marginal: the share of the points with x < 1/2 is'
+mean_is 1/2 'y/(1 - x)' 'Conditional: y/(1 - x) is uniform on [0, 1]; its mean is'
+mean_is 1/3 '(y/(1 - x))^2' 'The mean of (y/(1 - x))^2 is'
+mean_is 1/4 'y/(1 - x) < 1/4' 'The share of the points with y/(1 - x) < 1/4 is'
 
 # The mistake: to draw y from F(x, y)/F(x, 1), which is P(Y <= y | X <= x). At given x the part
 # of it above the slanted side is x/(2 - x); over all x that puts 3 - 4 ln 2 of the points outside.
-mean_is 0.2274112777 'x/(2 - x)'
+mean_is '3 - 4*ln(2)' 'x/(2 - x)' \
+    'With the joint cumulative function instead, the share outside the triangle is'
+
+# Both as pictures. The mistake, solved for y: below the slanted side F(x, y)/F(x, 1) is
+# 2 y/(2 - x), above it 1 - (1 - y)^2/(2 x - x^2).
+stipple generate halton -n 400 --start 1 -w 'triangle:vertices=[1,0 0,0 0,1]' --no-header \
+    -o right.csv
+stipple generate halton -n 400 --start 1 --no-header | LC_ALL=C awk -F , '{
+    x = 1 - sqrt($1)
+    y = $2*(2 - x)/2
+    if (y > 1 - x) y = 1 - sqrt((1 - $2)*(2*x - x*x))
+    print x "," y
+}' >mistake.csv
+stipple plot right.csv mistake.csv --labels 'conditional,joint cumulative function' \
+    --width 640 --height 360 -o triangle_density.svg
