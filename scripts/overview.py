@@ -1,86 +1,101 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Draws data/overview.png: the functions of stipple in one row.
+"""Draws data/overview.png: generate, warp and analyze for three samplers, one in each row.
 
     PYTHONPATH=build/release/python scripts/overview.py [PICTURE]
 
-Halton points, the same points on a disk, their power spectrum and its radial mean; below, results
-of analyzers.
+Points in the square, the same points on a disk, the power spectrum (mean of SETS sets), the discrepancy of every box, and
+results of analyzers.
 """
 
 import sys
 from pathlib import Path
 
 import numpy as np
+from matplotlib.colors import LinearSegmentedColormap
 
 import figures
 import stipple
 
-COUNT = 1024
-FREQUENCY = 46  # 93 cells a side are three pixels each
-DOTS_PER_INCH = 140
+SAMPLERS = {
+    "random": "Random",
+    "sobol:scramble=owen": "Sobol', scrambled",
+    "poisson-disk": "Poisson disk",
+}
+HEADS = ("generate", "warp", "analyze: spectrum", "discrepancy", "and numbers")
+COUNT = 256
+SETS = 16
+FREQUENCY = 32
+CORNERS = 65  # boxes along each axis
+LIMIT = 0.08  # discrepancy with the strongest colour
+BORDER = ([0, 1, 1, 0, 0], [0, 0, 1, 1, 0])
+SIDE, GAP, LEFT, TOP = 1.3, 0.2, 0.3, 0.3  # inches
+WORDS = 1.95  # inches for the numbers
+DOTS_PER_INCH = 150
+TOO_FEW_OR_MANY = LinearSegmentedColormap.from_list("boxes", (figures.COLOURS[0], "white", figures.COLOURS[1]))
 
 
-def sentence(star, chi):
-    how = "exact" if star.exact else f"within {star.lower:.6g} and {star.upper:.6g}"
-    meaning = {
-        "stratified": "stratified, more even than random",
-        "uniform": "uniform",
-        "non-uniform": "not uniform",
-    }[chi.verdict]
-    return (
-        f"star discrepancy {star.value:.6f} ({how})     •     "
-        f"chi-square on the disk {chi.statistic:.1f} with {chi.degrees_of_freedom:.0f} "
-        f"degrees of freedom, p = {chi.p_value:.1g}: {meaning}"
-    )
+def discrepancy(points):
+    """Fraction of the points in each box [0,x) x [0,y) minus its area, at the centres of a grid of corners (y, x)."""
+    corners = (np.arange(CORNERS) + 0.5) / CORNERS
+    below = (points[:, :, None] < corners).astype(float)
+    return below[:, 1].T @ below[:, 0] / len(points) - np.outer(corners, corners)
 
 
-def draw_points(axes, points, frame, title):
-    axes.plot(*frame, color=figures.GREY, linewidth=0.8, clip_on=False)
-    axes.scatter(*points.T, s=2.6, linewidths=0, color=figures.COLOURS[0], clip_on=False)
+def spectrum(name):
+    """Mean power of several sets. The power of frequency 0, which is the number of points, is 0."""
+    sets = stipple.generate(name, COUNT, sets=SETS)
+    power = np.mean([stipple.analyze("periodogram", one, max_frequency=FREQUENCY).grid for one in sets], axis=0)
+    power[FREQUENCY, FREQUENCY] = 0
+    return power
+
+
+def results(name, points, disk):
+    star = stipple.analyze("star-discrepancy", points)
+    near = stipple.analyze("nearest-neighbor", points)
+    integral = stipple.integrate(lambda x: np.hypot(x[:, 0] - 1, x[:, 1]), name, COUNT, 2, replications=SETS, warp="disk")
+    verdict = stipple.analyze("chi-square", disk).verdict
+    return (f"star discrepancy  {star.value:.3f}\nclosest two points  {near.minimum:.3f}\n"
+            f"test on the disk: {verdict}\nan integral (exact: {32 / 9:.4f})\n"
+            f"{integral.estimate:.4f} ± {integral.standard_error:.4f}")
+
+
+def draw_points(axes, points, frame):
+    axes.plot(*frame, color=figures.GREY, linewidth=0.7, clip_on=False)
+    axes.scatter(*points.T, s=3, linewidths=0, color=figures.COLOURS[0], clip_on=False)
     axes.set_aspect("equal")
-    axes.set_axis_off()
     axes.margins(0)
-    axes.set_title(title)
+
+
+def draw_row(panels, name):
+    points = stipple.generate(name, COUNT)
+    disk = stipple.warp(points, "disk", method="concentric")
+    turn = np.linspace(0, 2 * np.pi, 361)
+    draw_points(panels[0], points, BORDER)
+    draw_points(panels[1], disk, (np.cos(turn), np.sin(turn)))
+    power = spectrum(name)
+    panels[2].imshow(power / (1 + power), cmap="gray", vmin=0, vmax=1, origin="lower", interpolation="nearest")
+    panels[3].imshow(discrepancy(points), cmap=TOO_FEW_OR_MANY, vmin=-LIMIT, vmax=LIMIT, origin="lower", interpolation="nearest")
+    panels[3].plot(*BORDER, color=figures.GREY, linewidth=0.7, clip_on=False, transform=panels[3].transAxes)
+    panels[4].text(0, 0.5, results(name, points, disk), va="center", linespacing=1.6, fontsize=8.5)
+    for panel in panels:
+        panel.set_axis_off()
 
 
 def draw():
-    halton = stipple.generate("halton", COUNT, 2, start=1)
-    disk = stipple.warp(halton, "disk")
-    spectrum = stipple.analyze("periodogram", halton, max_frequency=FREQUENCY)
-    width, height, side = 10.4, 2.9, 2.0  # inches
+    width = LEFT + 4 * (SIDE + GAP) + WORDS
+    height = TOP + len(SAMPLERS) * (SIDE + GAP / 2)
     figure = figures.plt.figure(figsize=(width, height))
-
-    def panel(left, wide=side):
-        return figure.add_axes((left / width, 0.62 / height, wide / width, side / height))
-
-    turn = np.linspace(0, 2 * np.pi, 361)
-    square = ([0, 1, 1, 0, 0], [0, 0, 1, 1, 0])
-    draw_points(panel(0.1), halton, square, f"{COUNT} Halton points")
-    draw_points(panel(2.4), disk, (np.cos(turn), np.sin(turn)), "the same on a disk")
-    draw_spectrum(panel(4.7), spectrum.grid)
-    draw_radial(panel(7.2, 3.1), spectrum.radial)
-    words = sentence(stipple.analyze("star-discrepancy", halton), stipple.analyze("chi-square", disk))
-    figure.text(0.5, 0.02, words, ha="center", fontsize=9.5)
+    for row, (name, title) in enumerate(SAMPLERS.items()):
+        bottom = height - TOP - row * (SIDE + GAP / 2) - SIDE
+        places = [(LEFT + column * (SIDE + GAP), SIDE if column < 4 else WORDS) for column in range(5)]
+        panels = [figure.add_axes((left / width, bottom / height, wide / width, SIDE / height)) for left, wide in places]
+        draw_row(panels, name)
+        figure.text(0.12 / width, (bottom + SIDE / 2) / height, title, rotation=90, va="center", ha="center", fontsize=10)
+        if row == 0:
+            for panel, head in zip(panels, HEADS):
+                panel.set_title(head, loc="left" if head == HEADS[-1] else "center", fontsize=10, fontweight="bold")
     return figure
-
-
-def draw_spectrum(axes, power):
-    power[FREQUENCY, FREQUENCY] = 0  # f = 0 has n, and tells nothing
-    grey = power / (1 + power)
-    axes.imshow(grey, cmap="gray", vmin=0, vmax=1, origin="lower", interpolation="nearest")
-    axes.set_axis_off()
-    axes.set_title("their power spectrum")
-
-
-def draw_radial(axes, radial):
-    axes.axhline(1, color=figures.GREY, linewidth=0.9, linestyle=(0, (5, 3)))
-    axes.plot(radial.frequency, radial.power, color=figures.COLOURS[1])
-    axes.text(1, 1.03, "white noise", color=figures.GREY, fontsize=8)
-    axes.set_xlim(0, FREQUENCY)
-    axes.set_ylim(0)
-    axes.set_title("and its radial mean")
-    axes.set_xlabel("frequency", labelpad=1)
 
 
 if __name__ == "__main__":

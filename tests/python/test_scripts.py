@@ -49,4 +49,4 @@ def test_convergence_refuses_what_cannot_be_drawn(arguments, why):
 
 
 def test_overview_is_drawn(tmp_path):
-    assert "stratified, more even than random" in drawn("overview.py", tmp_path / "a.svg")
+    assert "test on the disk: stratified" in drawn("overview.py", tmp_path / "a.svg")
