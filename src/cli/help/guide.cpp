@@ -148,7 +148,8 @@ std::string coming_from(std::string_view name) {
             const bool asked = has_word(lower_case(line.substr(0, line.find("` | `"))), word);
             if (asked && !all && !heading.empty()) found += std::exchange(heading, "") + "\n";
             if (asked || all) found += row_as_text(std::string(line));
-        } else if (all && !line.empty() && !line.starts_with("|") && !line.starts_with("<!--")) {
+        } else if (all && !line.empty() && !line.starts_with("|") && !line.starts_with("<!--") &&
+                   !line.starts_with("Read on:")) {
             found += fmt::format("  {}\n", line);
         }
     }
