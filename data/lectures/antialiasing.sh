@@ -17,11 +17,11 @@ errors() {
             --check "expression.rms_error>$3" --check "expression.rms_error<$4" >report.txt
     LC_ALL=C awk -v kind="$1" -v slide="$2" '
         $1 == "expression.estimate" {
-            printf "With 16 %s samples in each of 1000 pixels, ", kind
+            printf "16 %s samples in each of 1000 pixels: ", kind
             printf "the mean share below the edge is %.3f (slide: 1/2)\n", $2
         }
         $1 == "expression.rms_error" {
-            printf "and the RMS error of a pixel is %.4f (slide: %s)\n", $2, slide
+            printf "16 %s samples: the RMS error of a pixel is %.4f (slide: %s)\n", kind, $2, slide
         }' report.txt
 }
 
@@ -42,6 +42,7 @@ stipple generate grid -n 40 -d 1 --no-header | LC_ALL=C awk '{
         print left + $1 ",0\n" left + $1 ",1\n" left "," $1 "\n" left + 1 "," $1
     }
 }' >edge.csv
-stipple plot edge.csv below.csv above.csv --overlay --labels 'edge and pixel,below the edge,above it' \
+stipple plot edge.csv below.csv above.csv --overlay \
+    --labels 'edge and pixel,below the edge,above it' \
     --title '16 random samples of a pixel; 16 jittered ones' --width 640 --height 360 \
     -o antialiasing.svg

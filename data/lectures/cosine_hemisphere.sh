@@ -22,10 +22,8 @@ mean_is() {
     say "$4" "$1"
 }
 
-mean_is 2/3 cosine 'z/pi' \
-    'The mean cos theta of cosine-weighted directions is'
-mean_is 1/2 uniform '1/(2*pi)' \
-    'The mean cos theta of uniform directions is'
+mean_is 2/3 cosine 'z/pi' 'The mean cos theta of cosine-weighted directions is'
+mean_is 1/2 uniform '1/(2*pi)' 'The mean cos theta of uniform directions is'
 
 # Seen from above, cosine-weighted directions fill the disk evenly.
 for method in cosine uniform; do

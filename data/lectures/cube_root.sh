@@ -1,7 +1,6 @@
 #!/bin/sh
 # The density p(x) = 3/2 x^2 on [-1, 1] by inversion: F(x) = (x^3 + 1)/2, so x = cbrt(2 xi - 1).
-# It takes cbrt, because pow(-1, 1/3) is not a number. E x^2 = 3/5, and
-# P(|x| < 1/2) = 1/8.
+# It takes cbrt, because pow(-1, 1/3) is not a number. E x^2 = 3/5, and P(|x| < 1/2) = 1/8.
 #
 # The mean of f over the points is the integral of f p. Tolerance: 4096 points of the van der
 # Corput sequence are one in each of 4096 strata, so that the share of an interval is off by at

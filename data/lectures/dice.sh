@@ -31,11 +31,9 @@ stipple generate random -n 36000 -w "$die" --meta -o dice.csv
 joint 1/36 'x == 3 && y == 5' 'Of all throws, the share with a 3 and then a 5 is'
 joint 1/6 'x + y == 7' 'Of all throws, the share with the sum 7 is'
 grep ',5$' dice.csv | stipple convert - --from csv --column 1 -o given.csv
-conditional 1/6 'x == 3' \
-    'Of the throws whose second die shows 5, the share with a 3 on the first is'
+conditional 1/6 'x == 3' 'Given a 5 on the second die, the share with a 3 on the first is'
 grep '^3,' dice.csv | stipple convert - --from csv --column 2 -o given.csv
-conditional 1/6 'x == 5' \
-    'Of the throws whose first die shows 3, the share with a 5 on the second is'
+conditional 1/6 'x == 5' 'Given a 3 on the first die, the share with a 5 on the second is'
 
 # 720 throws as dots, each at a random place in the square of its pair. Given the second die,
 # one row remains.

@@ -29,7 +29,7 @@ half_radius 1/4 rejection 'With rejection from a square, a quarter lie within ha
 half_radius 1/2 naive 'With r = xi (naive), half of the points lie within half the radius:'
 
 # verdict METHOD SLIDE SENTENCE: a chi-square test with both tails. "stratified" is more even than
-# random points, "non-uniform" less.
+# random points, "non-uniform" too uneven for uniform ones.
 verdict() {
     stipple generate halton -n 4096 --start 1 -w "disk:method=$1" --meta |
         stipple analyze chi-square -f text --check "verdict==$2" >report.txt

@@ -15,8 +15,8 @@ distances() {
     LC_ALL=C awk -v kind="$1" -v slide="$2" '
         $1 == "mean" { mean = $2 }
         $1 == "relative_radius" {
-            printf "%s points: the mean distance is %.3f, ", kind, mean
-            printf "the least %.2f of the largest possible (slide: %s)\n", $2, slide
+            printf "%s: mean distance %.3f, least distance ", kind, mean
+            printf "%.2f of the largest possible (slide: %s)\n", $2, slide
         }' report.txt
 }
 

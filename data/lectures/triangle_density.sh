@@ -44,7 +44,7 @@ mean_is 1/4 'y/(1 - x) < 1/4' 'The share of the points with y/(1 - x) < 1/4 is'
 # The mistake: to draw y from F(x, y)/F(x, 1), which is P(Y <= y | X <= x). At given x the part
 # of it above the slanted side is x/(2 - x); over all x that puts 3 - 4 ln 2 of the points outside.
 mean_is '3 - 4*ln(2)' 'x/(2 - x)' \
-    'With the joint cumulative function instead, the share outside the triangle is'
+    'The mistake puts a share of the points outside the triangle:'
 
 # Both as pictures. The mistake, solved for y: below the slanted side F(x, y)/F(x, 1) is
 # 2 y/(2 - x), above it 1 - (1 - y)^2/(2 x - x^2).
