@@ -79,7 +79,7 @@ def option_line(option):
 
 
 def linked_source(source):
-    source = re.sub(r"doi:(\S+?)(?=[,;)]|\s|$)", r"[doi:\1](https://doi.org/\1)", source)
+    source = re.sub(r"doi:((?:[^\s,;()]|\([^\s()]*\))+)", r"[doi:\1](https://doi.org/\1)", source)
     return re.sub(r"arXiv:(\d+\.\d+)", r"[arXiv:\1](https://arxiv.org/abs/\1)", source)
 
 

@@ -141,7 +141,7 @@ TEST(Help, FitsTheTerminal) {
     const auto longest = [](const std::string& text) {
         std::size_t most = 0;
         for (const auto line : split(text, '\n'))
-            if (line.find("stipple ") == line.npos) most = std::max(most, code_points(line).size());
+            if (line.find("stipple") == line.npos) most = std::max(most, code_points(line).size());
         return most;
     };
     for (const char* words : {"list", "list --long", "--help", "generate --help",

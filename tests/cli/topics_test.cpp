@@ -155,7 +155,7 @@ TEST(Manual, PagesAreWholeAndWithoutFaults) {
         for (const char* section : {".SH NAME\n", ".SH SEE ALSO\n"})
             EXPECT_THAT(page, HasSubstr(section)) << file;
         if (!groff) continue;
-        const Outcome set = box.shell("groff -man -Tascii -ww -z " + file);
+        const Outcome set = box.shell("groff -k -man -Tutf8 -ww -z " + file);
         EXPECT_EQ(set.err, "") << file;
         EXPECT_EQ(set.code, 0);
     }
