@@ -54,6 +54,9 @@ TEST(Topics, ExplainTerms) {
     const Sandbox box;
     EXPECT_GT(glossary_terms().size(), 60U);
     for (const std::string& term : glossary_terms()) EXPECT_NE(glossary_entry(term), "") << term;
+    EXPECT_EQ(glossary_entry("NET"), glossary_entry("nets"));
+    EXPECT_EQ(good(box.run({"help", "elementary", "interval"})),
+              good(box.run({"help", "elementary interval"})));
     const std::string strata = good(box.run({"help", "Strata"}));
     EXPECT_THAT(strata, HasSubstr("stratum"));
     EXPECT_EQ(good(box.run({"help", "stratum"})), strata);

@@ -326,8 +326,8 @@ const Topic* find_topic(const std::string& name) {
                    "help: unknown word '{}': no topic, verb, unit or term", name);
 }
 
-/// Help for a unit named without its verb.
-std::string help_of_unit(const std::string& name) {
+/// Help for a unit named without its verb, for a term, or for what another package calls something.
+std::string help_of_word(const std::string& name) {
     for (const Kind& kind : catalog()) {
         const UnitInfo* unit = find_unit(kind, name);
         if (unit == nullptr) continue;
@@ -349,10 +349,10 @@ std::string help_on(const std::vector<std::string>& words) {
     if (const Topic* topic = find_topic(words[0]); topic != nullptr && words.size() == 1)
         return filled_page(topic->text, text_columns());
     const VerbInfo* info = find_verb(words[0]);
-    if (words.size() > 1 && (info == nullptr || !units_for(info->name)))
-        fail_with_hint(ErrorKind::usage, fmt::format("'stipple help {}' takes one word", words[0]),
-                       "help: unexpected '{}': '{}' is not a verb with units", words[1], words[0]);
-    if (info == nullptr) return help_of_unit(words[0]);
+    if (info == nullptr) return help_of_word(join(words, " "));
+    if (words.size() > 2 || (words.size() > 1 && !units_for(info->name)))
+        fail_with_hint(ErrorKind::usage, fmt::format("'stipple help {}'", words[0]),
+                       "help: unexpected '{}' after '{}'", words.back(), words[0]);
     asked.verb = info->verb;
     if (words.size() > 1) asked.unit = words[1];
     return help_text(asked);
@@ -386,10 +386,8 @@ std::string help_text(const Arguments& arguments) {
 }
 
 int HelpRequest::perform(Session&) const {
-    const std::size_t most = man ? 1 : 2;
-    if (inputs.size() > most)
-        fail(ErrorKind::usage, "help takes {} at most; {} are given",
-             most == 1 ? "one word with --man" : "a topic, or a verb and a unit", inputs.size());
+    if (man && inputs.size() > 1)
+        fail(ErrorKind::usage, "help --man takes one word at most; {} are given", inputs.size());
     if (output && (!man || !inputs.empty()))
         fail(ErrorKind::usage, "--output: a folder is for all manual pages: help --man -o {}",
              *output);

@@ -45,6 +45,14 @@ std::string quoted_code(std::string_view code) {
     return code.find_first_of(" \n") == code.npos ? std::string(code) : fmt::format("'{}'", code);
 }
 
+/// Length of emphasis at the start of a text, `*words*`; 0 if there is none, as in 2 * x.
+std::size_t emphasis_at(std::string_view text) {
+    const auto end = text.find('*', 2);
+    const bool marked = text.starts_with('*') && end != text.npos &&
+                        text.find_first_of(" *\n", 1) != 1 && text[end - 1] != ' ';
+    return marked ? end + 1 : 0;
+}
+
 /// A paragraph, heading, item or table without the marks of Markdown.
 std::string plain_prose(std::string_view text) {
     const bool leads_on = text.starts_with("Read on:");
@@ -54,13 +62,16 @@ std::string plain_prose(std::string_view text) {
         std::size_t used = 1;
         if (const auto link = link_at(text.substr(picture ? 1 : 0))) {
             const std::string_view page = page_of(link->target);
-            if (leads_on && !page.empty())
+            if ((leads_on || out.ends_with("See ")) && !page.empty())
                 out += fmt::format("'stipple help {}'", page);
             else if (!picture)
                 out += plain_prose(link->words);
             used = link->length + (picture ? 1 : 0);
         } else if (text.starts_with("**")) {
             used = 2;
+        } else if (const auto length = emphasis_at(text); length > 0) {
+            out += plain_prose(text.substr(1, length - 2));
+            used = length;
         } else if (const auto end = text.find('`', 1); text[0] == '`' && end != text.npos) {
             out += quoted_code(text.substr(1, end - 1));
             used = end + 1;
