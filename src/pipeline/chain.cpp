@@ -11,6 +11,7 @@
 #include "core/bytes/fingerprint.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/product_domain.hpp"
 #include "core/rng.hpp"
 #include "core/text.hpp"
 #include "io/format.hpp"
@@ -101,60 +102,42 @@ ChainSet chain_set(const Generator& generator, const Plan& plan, const Values& o
 
 WarpChain::WarpChain(std::span<const Spec> specs, std::size_t dimension, const ChainSet& set,
                      const RunContext& run, std::vector<Factor> warped)
-    : dimension_in_(dimension), dimension_out_(dimension) {
-    for (Factor& before : warped)
-        steps_.push_back({.domain = std::move(before.domain),
-                          .image = std::move(before.coordinates),
-                          .width_in = dimension,
-                          .width_out = dimension});
+    : dimension_in_(dimension), from_(all_coordinates(dimension)) {
+    for (Factor& before : warped) set_domain(std::move(before));
     for (const Spec& spec : specs)
         if (const Scramble* scramble = scramble_named(spec.name))
             add_scramble(*scramble, spec, set);
         else
             add_warp(find_warp(spec.name), spec, run);
-    domain_ = domain_of_steps();
-}
-
-DomainPtr WarpChain::domain_of_steps() const {
+    if (set.bounds && !empty())
+        for (const auto& [k, at] : kept())
+            set_domain({box_domain({{set.bounds->low[k]}, {set.bounds->high[k]}}), {at}});
     std::vector<Factor> factors;
     for (const Step& step : steps_)
         if (step.domain) factors.push_back({step.domain, step.image});
-    return filled_up(std::move(factors), dimension_out_);
+    domain_ = filled_up(std::move(factors), dimension_out());
+}
+
+void WarpChain::set_domain(Factor factor) {
+    steps_.push_back({.domain = std::move(factor.domain),
+                      .image = std::move(factor.coordinates),
+                      .width_in = dimension_out(),
+                      .width_out = dimension_out()});
 }
 
 std::vector<std::pair<std::size_t, std::size_t>> WarpChain::kept() const {
-    constexpr std::size_t taken = ~std::size_t{0};
-    std::vector<std::size_t> from = all_coordinates(dimension_in_);
-    for (const Step& step : steps_) {
-        if (!step.mapping) continue;
-        std::vector<std::size_t> after(step.width_out, taken);
-        for (std::size_t i = 0; i < step.rest.size(); ++i)
-            after[step.others[i]] = from[step.rest[i]];
-        from = std::move(after);
-    }
     std::vector<std::pair<std::size_t, std::size_t>> found;
-    for (std::size_t k = 0; k < from.size(); ++k)
-        if (from[k] != taken) found.emplace_back(from[k], k);
+    for (std::size_t at = 0; at < from_.size(); ++at)
+        if (from_[at] != none) found.emplace_back(from_[at], at);
     return found;
 }
 
-void WarpChain::put_on(const std::vector<Factor>& factors) {
-    for (const Factor& factor : factors)
-        steps_.push_back({.domain = factor.domain,
-                          .image = factor.coordinates,
-                          .width_in = dimension_out_,
-                          .width_out = dimension_out_});
-    domain_ = domain_of_steps();
-}
-
-/// Returns the coordinates that a spec names, or all.
-/// @throws Error(usage) if one does not exist, or is already on another domain than the unit cube
-std::vector<std::size_t> WarpChain::coordinates_of(const Spec& spec) const {
-    const auto named = named_or_all(spec, dimension_out_);
+WarpChain::Step WarpChain::step_of(const Spec& spec) const {
+    const auto named = named_or_all(spec, dimension_out());
     for (const std::size_t k : named) {
-        if (k >= dimension_out_)
+        if (k >= dimension_out())
             fail(ErrorKind::usage, "{}@{}: the points have coordinates 1 to {}", spec.name,
-                 format_coordinates(named), dimension_out_);
+                 format_coordinates(named), dimension_out());
         for (const Step& earlier : steps_)
             if (std::ranges::find(earlier.image, k) != earlier.image.end())
                 fail(ErrorKind::usage,
@@ -162,7 +145,11 @@ std::vector<std::size_t> WarpChain::coordinates_of(const Spec& spec) const {
                      "the unit cube",
                      spec.name, k + 1);
     }
-    return named;
+    Step step{.coordinates = named,
+              .rest = other_coordinates(dimension_out(), named),
+              .width_in = dimension_out()};
+    for (const std::size_t k : named) step.from.push_back(from_[k]);
+    return step;
 }
 
 template <class Unit>
@@ -170,9 +157,10 @@ void WarpChain::remember(const Unit& unit, const Spec& spec, const Values& value
     std::string text = format_spec(unit.name, values, unit.options);
     if (!spec.coordinates.empty())
         text.insert(unit.name.size(), fmt::format("@{}", format_coordinates(spec.coordinates)));
-    specs_.push_back(std::move(text));
-    std::ranges::copy(files_of(unit.options, values), std::back_inserter(files_));
-    if (unit.stream_version > 1) stream_versions_.emplace_back(unit.name, unit.stream_version);
+    record_.specs.push_back(std::move(text));
+    std::ranges::copy(files_of(unit.options, values), std::back_inserter(record_.files));
+    if (unit.stream_version > 1)
+        record_.stream_versions.emplace_back(unit.name, unit.stream_version);
 }
 
 /// Sets the base of a scramble of digits to that of its coordinates, unless the spec sets it.
@@ -185,8 +173,7 @@ void WarpChain::set_bases(Values& values, const Scramble& scramble,
         return;
     std::vector<std::uint32_t> own;
     for (const std::size_t k : coordinates)
-        for (const auto& [from, at] : kept())
-            if (at == k) own.push_back(bases.size() == 1 ? bases[0] : bases.at(from));
+        own.push_back(bases.size() == 1 ? bases[0] : bases.at(from_[k]));
     if (std::ranges::count(own, own.front()) == std::ssize(own)) own.resize(1);
     if (own != std::vector<std::uint32_t>{2})
         scramble.options.set(values, "base", fmt::format("{}", fmt::join(own, ",")));
@@ -194,12 +181,11 @@ void WarpChain::set_bases(Values& values, const Scramble& scramble,
 
 void WarpChain::add_scramble(const Scramble& scramble, const Spec& spec, const ChainSet& set) {
     Values values = spec.values(scramble.options);
-    Step step{.coordinates = coordinates_of(spec),
-              .width_in = dimension_out_,
-              .width_out = dimension_out_};
+    Step step = step_of(spec);
     set_bases(values, scramble, step.coordinates, set.bases);
+    step.width_out = step.width_in;
     step.at = step.coordinates;
-    step.rest = step.others = other_coordinates(dimension_out_, step.at);
+    step.others = step.rest;
     std::uint64_t seed = set.seed;
     if (values.given(scramble_seed)) {
         const auto own = parse_unsigned(values[scramble_seed]);
@@ -208,7 +194,7 @@ void WarpChain::add_scramble(const Scramble& scramble, const Spec& spec, const C
                  values[scramble_seed]);
         seed = *own;
     } else {
-        seeded_ = true;
+        traits_.seeded = true;
     }
     step.randomization =
         scramble.make(values, {.coordinates = step.coordinates, .seed = seed, .count = set.count});
@@ -218,68 +204,44 @@ void WarpChain::add_scramble(const Scramble& scramble, const Spec& spec, const C
 
 void WarpChain::add_warp(const Warp& warp, const Spec& spec, const RunContext& run) {
     const Values values = spec.values(warp.options);
-    Step step{.coordinates = coordinates_of(spec), .width_in = dimension_out_};
+    Step step = step_of(spec);
     step.mapping = warp.make(values, step.coordinates.size(), run);
     step.set_step = step.mapping->set_step();
-    step.refills = warp.traits.refills && step.mapping->drops();
+    const bool drops = step.mapping->drops();
+    traits_.drops |= drops;
+    traits_.refills |= drops && warp.traits.refills;
+    traits_.needs_whole_set |= static_cast<bool>(step.set_step);
     const std::size_t takes = step.mapping->cube_dimension();
     if (takes != step.coordinates.size()) refuse_coordinates(spec, takes, step.width_in);
     step.domain = step.mapping->domain();
     const std::size_t gives = step.domain->dimension();
     step.width_out = step.width_in - takes + gives;
     step.image = step.at = places(step.coordinates, gives);
-    step.rest = other_coordinates(step.width_in, step.coordinates);
     step.others = other_coordinates(step.width_out, step.at);
     for (Step& earlier : steps_)
         for (std::size_t& k : earlier.image) k = moved(k, step.rest, step.others);
+    std::vector<std::size_t> from(step.width_out, none);
+    for (std::size_t i = 0; i < step.rest.size(); ++i) from[step.others[i]] = from_[step.rest[i]];
+    from_ = std::move(from);
     remember(warp, spec, values);
-    dimension_out_ = step.width_out;
     steps_.push_back(std::move(step));
 }
 
-DomainPtr WarpChain::domain_before(const DomainPtr& after) const {
-    std::vector<Factor> factors = warped_factors(after);
-    for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
-        if (!step->mapping) continue;
-        std::erase_if(factors, [&](const Factor& factor) {
-            return std::ranges::find_first_of(factor.coordinates, step->at) !=
-                   factor.coordinates.end();
-        });
-        for (Factor& factor : factors)
-            for (std::size_t& k : factor.coordinates) k = moved(k, step->others, step->rest);
-    }
-    return filled_up(std::move(factors), dimension_in_);
-}
-
-bool WarpChain::drops() const {
-    return std::ranges::any_of(
-        steps_, [](const Step& step) { return step.mapping && step.mapping->drops(); });
-}
-
-bool WarpChain::refills() const { return std::ranges::any_of(steps_, &Step::refills); }
-
 std::vector<OutcomeAxis> WarpChain::outcome_axes() const {
     std::vector<OutcomeAxis> axes(dimension_in_);
-    for (std::size_t k = 0; k < axes.size(); ++k) {
-        std::size_t at = k;
-        for (const Step& step : steps_) {
-            if (!step.mapping && !step.randomization) continue;
-            const auto found = std::ranges::find(step.coordinates, at);
-            if (found == step.coordinates.end()) {
-                at = moved(at, step.rest, step.others);
-                continue;
-            }
-            auto own = step.mapping ? step.mapping->outcome_axes() : std::vector<OutcomeAxis>();
-            if (!own.empty())
-                axes[k] =
-                    std::move(own[static_cast<std::size_t>(found - step.coordinates.begin())]);
-            break;
+    std::vector<bool> randomized(dimension_in_);
+    for (const Step& step : steps_) {
+        auto own = step.mapping ? step.mapping->outcome_axes() : std::vector<OutcomeAxis>();
+        for (std::size_t i = 0; i < step.from.size(); ++i) {
+            const std::size_t k = step.from[i];
+            if (!step.mapping)
+                randomized[k] = true;
+            else if (!own.empty() && !randomized[k])
+                axes[k] = std::move(own[i]);
         }
     }
     return axes;
 }
-
-bool WarpChain::needs_whole_set() const { return stops().size() > 1; }
 
 std::vector<std::size_t> WarpChain::stops() const {
     std::vector<std::size_t> at;
@@ -320,7 +282,7 @@ void WarpChain::tell_infinite(const RunContext& run) const {
         fmt::format("point {} has a coordinate 0 or 1, which {} maps to infinity; a value far in "
                     "the tail replaces it; leave such points out (generate --start 1) or "
                     "scramble them",
-                    row, join(specs_, ", ")));
+                    row, join(record_.specs, ", ")));
 }
 
 std::vector<double> WarpChain::forward(std::vector<double> rows, std::uint64_t first) const {
@@ -399,8 +361,8 @@ std::vector<double> in_blocks(
 
 std::vector<double> WarpChain::mapped(std::span<const double> rows, bool back, std::uint64_t first,
                                       const RunContext& run) const {
-    const std::size_t d = back ? dimension_out_ : dimension_in_;
-    const std::size_t wide = back ? dimension_in_ : dimension_out_;
+    const std::size_t d = back ? dimension_out() : dimension_in_;
+    const std::size_t wide = back ? dimension_in_ : dimension_out();
     run.need_memory(8.0 * static_cast<double>(rows.size() / d * wide), "the image of the points");
     if (back)
         return in_blocks(rows, d, run, [&](std::vector<double> block, std::size_t) {
@@ -422,82 +384,89 @@ std::vector<double> WarpChain::mapped(std::span<const double> rows, bool back, s
 }
 
 std::vector<std::string> WarpChain::names(std::vector<std::string> before, bool back) const {
-    const std::size_t d = back ? dimension_out_ : dimension_in_;
-    if (before.size() != d) before.assign(d, "");
-    const auto pass = [&](const Step& step) {
-        if (!step.mapping) return;
-        std::vector<std::string> after(back ? step.width_in : step.width_out);
-        const auto& from = back ? step.others : step.rest;
-        const auto& to = back ? step.rest : step.others;
-        for (std::size_t i = 0; i < from.size(); ++i) after[to[i]] = std::move(before[from[i]]);
+    if (before.size() != (back ? dimension_out() : dimension_in_)) before.clear();
+    std::vector<std::string> after(back ? dimension_in_ : dimension_out());
+    if (!before.empty())
+        for (const auto& [from, at] : kept())
+            after[back ? from : at] = std::move(before[back ? at : from]);
+    for (const Step& step : steps_) {
+        if (!step.mapping) continue;
         const auto own = step.domain->names();  // as many as cube coordinates
-        const auto& places = back ? step.coordinates : step.at;
-        for (std::size_t k = 0; k < own.size(); ++k) after[places[k]] = own[k];
-        before = std::move(after);
-    };
-    if (back)
-        for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) pass(*step);
-    else
-        std::ranges::for_each(steps_, pass);
-    if (std::ranges::all_of(before, &std::string::empty)) return {};
-    const auto usual = coordinate_names(before.size());
-    for (std::size_t k = 0; k < before.size(); ++k)
-        if (before[k].empty()) before[k] = usual[k];
-    return before;
-}
-
-Levels WarpChain::levels() const {
-    Levels all;
-    for (const Step& step : steps_)
-        if (step.domain) std::ranges::move(step.domain->levels(), std::back_inserter(all));
-    return all;
-}
-
-PointSet WarpChain::image(const PointSet& points, const RunContext& run,
-                          std::uint64_t start) const {
-    if (points.dimension() != dimension_in_)
-        fail(ErrorKind::input, "the points have {} coordinates; the warps take {}",
-             points.dimension(), dimension_in_);
-    PointSet image(mapped(points.flat(), false, start, run), dimension_out_);
-    tell_kept(points.count(), image.count(), run);
-    image.domain = domain_;
-    image.provenance = points.provenance;
-    image.provenance.columns = names(points.provenance.columns, false);
-    std::ranges::move(levels(), std::back_inserter(image.provenance.levels));
-    image.provenance.efficiency *=
-        static_cast<double>(image.count()) / static_cast<double>(points.count());
-    return image;
-}
-
-PointSet WarpChain::preimage(const PointSet& points, const RunContext& run) const {
-    if (points.dimension() != dimension_out_)
-        fail(ErrorKind::input, "the points have {} coordinates; the warps give {}",
-             points.dimension(), dimension_out_);
-    PointSet before(mapped(points.flat(), true, 0, run), dimension_in_);
-    before.domain = domain_before(points.domain);
-    before.provenance = points.provenance;
-    before.provenance.columns = names(points.provenance.columns, true);
-    return before;
+        for (std::size_t i = 0; i < own.size(); ++i)
+            after[(back ? step.from : step.image)[i]] = own[i];
+    }
+    if (std::ranges::all_of(after, &std::string::empty)) return {};
+    const auto usual = coordinate_names(after.size());
+    for (std::size_t k = 0; k < after.size(); ++k)
+        if (after[k].empty()) after[k] = usual[k];
+    return after;
 }
 
 std::vector<double> WarpChain::density(std::span<const double> rows) const {
-    std::vector<double> density(rows.size() / dimension_out_, 1.0);
+    std::vector<double> density(rows.size() / dimension_out(), 1.0);
     for (const Step& step : steps_)
         if (step.domain)
             multiply_densities(density, rows, step.image, *step.domain, step.mapping.get());
     return density;
 }
 
-void WarpChain::tell_kept(std::uint64_t count, std::uint64_t kept, const RunContext& run) const {
-    if (drops() && kept < count)
-        run.notify(
-            fmt::format("kept {} of {} points (efficiency {:.3g}): the others have no image "
-                        "under {}",
-                        kept, count, static_cast<double>(kept) / static_cast<double>(count),
-                        join(specs_, ", ")));
-    if (kept == 0)
-        fail(ErrorKind::input, "none of {} points has an image under {}", count,
-             join(specs_, ", "));
+Levels levels_of(const WarpChain& chain) {
+    Levels all;
+    for (const Factor& factor : factors_of(chain.domain()))
+        std::ranges::move(factor.domain->levels(), std::back_inserter(all));
+    return all;
+}
+
+DomainPtr domain_before(const WarpChain& chain, const DomainPtr& after) {
+    const auto kept = chain.kept();
+    std::vector<Factor> factors;
+    for (const Factor& factor : warped_factors(after)) {
+        std::vector<std::size_t> before;
+        for (const std::size_t k : factor.coordinates)
+            for (const auto& [from, at] : kept)
+                if (at == k) before.push_back(from);
+        if (before.size() == factor.coordinates.size())
+            factors.push_back({factor.domain, std::move(before)});
+    }
+    return filled_up(std::move(factors), chain.dimension_in());
+}
+
+PointSet image_of(const PointSet& points, const WarpChain& chain, const RunContext& run,
+                  std::uint64_t start) {
+    if (points.dimension() != chain.dimension_in())
+        fail(ErrorKind::input, "the points have {} coordinates; the warps take {}",
+             points.dimension(), chain.dimension_in());
+    PointSet image(chain.mapped(points.flat(), false, start, run), chain.dimension_out());
+    tell_kept(chain, points.count(), image.count(), run);
+    image.domain = chain.domain();
+    image.provenance = points.provenance;
+    image.provenance.columns = chain.names(points.provenance.columns);
+    std::ranges::move(levels_of(chain), std::back_inserter(image.provenance.levels));
+    image.provenance.efficiency *=
+        static_cast<double>(image.count()) / static_cast<double>(points.count());
+    return image;
+}
+
+PointSet preimage_of(const PointSet& points, const WarpChain& chain, const RunContext& run) {
+    if (points.dimension() != chain.dimension_out())
+        fail(ErrorKind::input, "the points have {} coordinates; the warps give {}",
+             points.dimension(), chain.dimension_out());
+    PointSet before(chain.mapped(points.flat(), true, 0, run), chain.dimension_in());
+    before.domain = domain_before(chain, points.domain);
+    before.provenance = points.provenance;
+    before.provenance.columns = chain.names(points.provenance.columns, true);
+    return before;
+}
+
+void tell_kept(const WarpChain& chain, std::uint64_t count, std::uint64_t kept,
+               const RunContext& run) {
+    const std::string warps = join(chain.record().specs, ", ");
+    if (chain.traits().drops && kept < count)
+        run.notify(fmt::format(
+            "kept {} of {} points (efficiency {:.3g}): the others have no image "
+            "under {}",
+            kept, count, static_cast<double>(kept) / static_cast<double>(count), warps));
+    if (kept == 0) fail(ErrorKind::input, "none of {} points has an image under {}", count, warps);
 }
 
 std::vector<std::string> files_of(const Schema& schema, const Values& values,

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,16 +27,33 @@
 
 namespace stipple {
 
-/// Properties of a set of points on which scrambles depend.
+/// Properties of a set of points on which its images depend.
 struct ChainSet {
     std::uint64_t seed = 1;
     std::uint64_t count = 1;  ///< points of the whole set
     /// Base of the digits of each coordinate, or one base for all; empty: 2.
     std::vector<std::uint32_t> bases = {};
+    /// Ranges of the coordinates, of which those that no warp takes are scaled after the chain.
+    std::optional<Box> bounds = {};
 };
 
 /// Properties of the set that a plan describes.
 ChainSet chain_set(const Generator& generator, const Plan& plan, const Values& options);
+
+struct ChainTraits {
+    bool drops = false;            ///< some points may have no image
+    bool refills = false;          ///< sets have the requested number of images nevertheless
+    bool needs_whole_set = false;  ///< the image of a point depends on all points of its set
+    bool seeded = false;           ///< the images depend on the set's seed
+};
+
+/// What a provenance stores of the warps and scrambles.
+struct ChainRecord {
+    std::vector<std::string> specs = {};  ///< with those options that differ from the defaults
+    std::vector<std::string> files = {};  ///< files that they read
+    /// Names and stream versions, if above 1.
+    std::vector<std::pair<std::string, std::uint64_t>> stream_versions = {};
+};
 
 class WarpChain {
   public:
@@ -48,47 +66,28 @@ class WarpChain {
 
     [[nodiscard]] bool empty() const { return steps_.empty(); }
     [[nodiscard]] std::size_t dimension_in() const { return dimension_in_; }
-    [[nodiscard]] std::size_t dimension_out() const { return dimension_out_; }
+    [[nodiscard]] std::size_t dimension_out() const { return from_.size(); }
     [[nodiscard]] const DomainPtr& domain() const { return domain_; }
+    [[nodiscard]] const ChainTraits& traits() const { return traits_; }
+    [[nodiscard]] const ChainRecord& record() const { return record_; }
 
     /// Coordinates of the points that no warp takes, in order, each with its position in the
     /// images.
     [[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> kept() const;
 
-    /// Sets the domains of coordinates in the images that no warp takes.
-    void put_on(const std::vector<Factor>& factors);
-
-    /// Specs of the warps and scrambles, with those options that differ from the defaults.
-    [[nodiscard]] const std::vector<std::string>& specs() const { return specs_; }
-
-    /// Files that the warps and scrambles read.
-    [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
-
-    /// Names and stream versions of warps and scrambles, if above 1.
-    [[nodiscard]] const std::vector<std::pair<std::string, std::uint64_t>>& stream_versions()
-        const {
-        return stream_versions_;
-    }
-
-    /// Whether some points may have no image.
-    [[nodiscard]] bool drops() const;
-
-    /// Whether a set must have the requested number of images, even though some points have none.
-    [[nodiscard]] bool refills() const;
-
     /// Discrete outcomes (such as levels) to which each coordinate of the points is mapped. An axis
     /// is continuous if it has no such outcomes, or if they depend on other coordinates.
     [[nodiscard]] std::vector<OutcomeAxis> outcome_axes() const;
 
-    /// Whether the image of a point depends on all points of its set; rows must then be those of a
-    /// whole set.
-    [[nodiscard]] bool needs_whole_set() const;
-
-    /// Whether the images depend on the set's seed.
-    [[nodiscard]] bool seeded() const { return seeded_; }
+    /// Returns the names of the coordinates of the images or, with `back`, of the preimages.
+    /// Coordinates that a warp maps are named by its domain, others as in `before`; the remaining
+    /// ones get default names. Empty if all names are default names.
+    /// @param before names before the mapping; empty: default names
+    [[nodiscard]] std::vector<std::string> names(std::vector<std::string> before = {},
+                                                 bool back = false) const;
 
     /// Returns the images of rows first, first + 1, ... of the set. Coordinates that warps take
-    /// must be in the unit cube. With drops(), there may be fewer images than rows.
+    /// must be in the unit cube. If points may be dropped, there may be fewer images than rows.
     [[nodiscard]] std::vector<double> forward(std::vector<double> rows,
                                               std::uint64_t first = 0) const;
 
@@ -96,62 +95,34 @@ class WarpChain {
     /// @throws Error(usage) if a step has no inverse; Error(input) for points outside the domain
     [[nodiscard]] std::vector<double> inverse(std::vector<double> rows) const;
 
-    /// Returns the names of the coordinates of the images or, with `back`, of the preimages.
-    /// Coordinates that a warp maps are named by its domain, others as in `before`; the remaining
-    /// ones get default names. Empty if all names are default names.
-    /// @param before names before the mapping; empty: default names
-    [[nodiscard]] std::vector<std::string> names(std::vector<std::string> before, bool back) const;
-
-    /// Level names of categorical coordinates in the images, from the warps' domains.
-    [[nodiscard]] Levels levels() const;
-
     /// Runs forward() or, with `back`, inverse() on all threads. The first row is row `first` of
     /// the set.
     /// @throws as these do; Error(cancelled), Error(limit)
     [[nodiscard]] std::vector<double> mapped(std::span<const double> rows, bool back,
                                              std::uint64_t first, const RunContext& run) const;
 
-    /// Returns the images of all points; they are on domain() and keep the provenance. Warns of
-    /// points without an image, and multiplies the efficiency in the provenance by the fraction of
-    /// points that have one.
-    /// @param start index of the first point
-    /// @throws Error(input) for points of another dimension, and if none has an image; as mapped()
-    [[nodiscard]] PointSet image(const PointSet& points, const RunContext& run,
-                                 std::uint64_t start = 0) const;
-
-    /// Returns the preimages of all points, with their provenance. Coordinates that no warp takes
-    /// keep their domain.
-    /// @throws Error(input) for points of another dimension; as mapped()
-    [[nodiscard]] PointSet preimage(const PointSet& points, const RunContext& run) const;
-
-    /// Warns if points were dropped, so that only `kept` of `count` points remain.
-    /// @throws Error(input) if none remains
-    void tell_kept(std::uint64_t count, std::uint64_t kept, const RunContext& run) const;
-
-    /// Domain of the preimages of points that are on the domain `after`.
-    [[nodiscard]] DomainPtr domain_before(const DomainPtr& after) const;
+    /// Density at each row that forward() returned, with respect to the measure of domain().
+    [[nodiscard]] std::vector<double> density(std::span<const double> rows) const;
 
     /// Warns of the first row whose infinite image forward() has replaced by a finite one; once in
     /// the lifetime of the chain.
     void tell_infinite(const RunContext& run) const;
 
-    /// Density at each row that forward() returned, with respect to the measure of domain().
-    [[nodiscard]] std::vector<double> density(std::span<const double> rows) const;
-
   private:
     /// A mapping (warp), a randomization (scramble), or neither: then it only sets the domain of
-    /// coordinates that the chain does not change.
+    /// coordinates that the chain does not change. A coordinate has at most one mapping, the last
+    /// of its steps.
     struct Step {
         DomainPtr domain = {};  ///< domain of the step's output; null for a randomization
         std::unique_ptr<Mapping> mapping = {};
         Mapping::SetStep set_step = {};  ///< applied to whole sets before the mapping
-        bool refills = false;            ///< the points that the mapping drops are replaced
         Randomization randomization = {};
         std::vector<std::size_t> coordinates = {};  ///< coordinates taken from the input row
         std::vector<std::size_t> rest = {};         ///< other coordinates of the input row
         std::vector<std::size_t> at = {};           ///< positions of its numbers in the output row
         std::vector<std::size_t> others = {};       ///< positions of `rest` in the output row
-        std::vector<std::size_t> image = {};  ///< positions of its numbers in the chain's last row
+        std::vector<std::size_t> from = {};   ///< positions of its coordinates in the first row
+        std::vector<std::size_t> image = {};  ///< positions of its numbers in the last row
         std::size_t width_in = 0;             ///< numbers in the input row
         std::size_t width_out = 0;            ///< numbers in the output row
     };
@@ -172,7 +143,8 @@ class WarpChain {
     /// @param first index of the first of these rows
     void note_infinite(const Step& step, std::span<const double> cube, std::uint64_t first) const;
 
-    [[nodiscard]] DomainPtr domain_of_steps() const;
+    /// Adds a step that sets the domain of coordinates of the last row.
+    void set_domain(Factor factor);
     void set_bases(Values& values, const Scramble& scramble,
                    std::span<const std::size_t> coordinates,
                    const std::vector<std::uint32_t>& bases) const;
@@ -180,20 +152,48 @@ class WarpChain {
     void add_warp(const Warp& warp, const Spec& spec, const RunContext& run);
     template <class Unit>
     void remember(const Unit& unit, const Spec& spec, const Values& values);
-    [[nodiscard]] std::vector<std::size_t> coordinates_of(const Spec& spec) const;
+    /// A step that takes the coordinates that a spec names, or all.
+    /// @throws Error(usage) if one does not exist, or is already on another domain than the unit
+    /// cube
+    [[nodiscard]] Step step_of(const Spec& spec) const;
 
     std::vector<Step> steps_;
-    std::vector<std::string> specs_;
-    std::vector<std::string> files_;
-    std::vector<std::pair<std::string, std::uint64_t>> stream_versions_;
-    bool seeded_ = false;
+    ChainTraits traits_;
+    ChainRecord record_;
     std::size_t dimension_in_;
-    std::size_t dimension_out_;
+    /// For each coordinate of the last row, the one of the first row that it is; `none` if a warp
+    /// made it.
+    std::vector<std::size_t> from_;
     DomainPtr domain_;
     mutable std::atomic<std::uint64_t> infinite_ = none;  ///< index of a row, `none` or `told`
     static constexpr std::uint64_t none = ~std::uint64_t{0};
     static constexpr std::uint64_t told = none - 1;
 };
+
+/// Level names of categorical coordinates in the images, from the warps' domains.
+Levels levels_of(const WarpChain& chain);
+
+/// Domain of the preimages of points that are on the domain `after`.
+DomainPtr domain_before(const WarpChain& chain, const DomainPtr& after);
+
+/// Returns the images of all points; they are on chain.domain() and keep the provenance. Warns of
+/// points without an image, and multiplies the efficiency in the provenance by the fraction of
+/// points that have one.
+/// @param start index of the first point
+/// @throws Error(input) for points of another dimension, and if none has an image; as
+/// WarpChain::mapped()
+PointSet image_of(const PointSet& points, const WarpChain& chain, const RunContext& run,
+                  std::uint64_t start = 0);
+
+/// Returns the preimages of all points, with their provenance. Coordinates that no warp takes keep
+/// their domain.
+/// @throws Error(input) for points of another dimension; as WarpChain::mapped()
+PointSet preimage_of(const PointSet& points, const WarpChain& chain, const RunContext& run);
+
+/// Warns if points were dropped, so that only `kept` of `count` points remain.
+/// @throws Error(input) if none remains
+void tell_kept(const WarpChain& chain, std::uint64_t count, std::uint64_t kept,
+               const RunContext& run);
 
 /// Returns the selected columns of all rows, as shorter rows.
 std::vector<double> gather(std::span<const double> rows, std::size_t width,

@@ -49,8 +49,8 @@ std::string file_of_runs(const Values& options) {
 
 PointSet read_runs(const Values& options, const WarpChain& chain, const RunContext& run) {
     const std::string path = file_of_runs(options);
-    PointSet runs = io::read_given(
-        extend_option, path, {.expected = chain.names({}, false), .levels = chain.levels()}, run);
+    PointSet runs = io::read_given(extend_option, path,
+                                   {.expected = chain.names(), .levels = levels_of(chain)}, run);
     if (runs.dimension() != chain.dimension_out())
         fail(ErrorKind::input, "{}: {} columns; the parameters are {}", path, runs.dimension(),
              chain.dimension_out());
@@ -60,7 +60,7 @@ PointSet read_runs(const Values& options, const WarpChain& chain, const RunConte
 void count_with_runs(const WarpChain& chain, Request& request, Values& options,
                      const RunContext& run) {
     if (!goes_on_from_runs(options, chain)) return;
-    if (chain.needs_whole_set())
+    if (chain.traits().needs_whole_set)
         fail(
             ErrorKind::usage,
             "--extend: the parameters of a whole set are reordered; earlier points would not stay");
@@ -89,7 +89,7 @@ void take_levels(const WarpChain& chain, Values& options) {
 }  // namespace
 
 bool goes_on_from_runs(const Values& options, const WarpChain& chain) {
-    return given(options, extend_option) && !chain.empty() && !chain.names({}, false).empty();
+    return given(options, extend_option) && !chain.empty() && !chain.names().empty();
 }
 
 EarlierRuns earlier_runs(const Values& options, const WarpChain& chain, const RunContext& run) {
@@ -127,8 +127,8 @@ void take_parameters(const Generator& generator, std::span<const Spec> warps, Re
 void tell_absent_levels(std::span<const double> rows, const Generator& generator,
                         const WarpChain& chain, const RunContext& run) {
     const auto axes = chain.outcome_axes();
-    const auto names = chain.names({}, false);
-    const Levels words = chain.levels();
+    const auto names = chain.names();
+    const Levels words = levels_of(chain);
     if (names.size() != axes.size()) return;
     for (std::size_t k = 0; k < axes.size(); ++k) {
         if (!axes[k].categories && !generator.traits.levels) continue;

@@ -156,7 +156,7 @@ GeneratedSets::GeneratedSets(SetsToMake asked, const RunContext& run)
                                                        : chain_->domain()) {
     if (generator_.settle) generator_.settle(asked_.options);
     auto files = files_of(generator_.options, asked_.options, generator_.writes);
-    files.insert(files.end(), chain_->files().begin(), chain_->files().end());
+    files.insert(files.end(), chain_->record().files.begin(), chain_->record().files.end());
     inputs_ = fingerprints(files, run);
     if (const auto& bounds = asked_.request.bounds; bounds && !generator_.traits.boxed) {
         scaling_.emplace();
@@ -179,14 +179,15 @@ GeneratedSets::GeneratedSets(SetsToMake asked, const RunContext& run)
 
 std::optional<std::uint64_t> GeneratedSets::streamed() const {
     const bool whole = generator_.whole && generator_.whole(asked_.options);
-    if (!generator_.traits.sequence || whole || chain_->drops() || chain_->needs_whole_set())
+    if (!generator_.traits.sequence || whole || chain_->traits().drops ||
+        chain_->traits().needs_whole_set)
         return std::nullopt;
     return plan_.count;
 }
 
 std::shared_ptr<const WarpChain> GeneratedSets::chain_for(std::uint64_t set, const RunContext& run,
                                                           std::optional<std::uint64_t> made) const {
-    if (!chain_->seeded()) return chain_;
+    if (!chain_->traits().seeded) return chain_;
     const std::uint64_t count = asked_.request.start + made.value_or(plan_.count);
     return make_chain({.seed = plan_.seed + set, .count = count}, run);
 }
@@ -197,14 +198,8 @@ std::shared_ptr<const WarpChain> GeneratedSets::make_chain(const ChainSet& set,
     const bool scrambled = std::ranges::any_of(
         asked_.warps, [](const Spec& spec) { return scramble_named(spec.name) != nullptr; });
     if (scrambled) in_bases.bases = chain_set(generator_, plan_, asked_.options).bases;
-    auto chain = std::make_shared<WarpChain>(asked_.warps, plan_.dimension, in_bases, run);
-    const auto& bounds = asked_.request.bounds;
-    if (!bounds || chain->empty()) return chain;
-    std::vector<Factor> factors;
-    for (const auto& [k, at] : chain->kept())
-        factors.push_back({box_domain({{bounds->low[k]}, {bounds->high[k]}}), {at}});
-    chain->put_on(factors);
-    return chain;
+    in_bases.bounds = asked_.request.bounds;
+    return std::make_shared<WarpChain>(asked_.warps, plan_.dimension, in_bases, run);
 }
 
 namespace {
@@ -213,8 +208,9 @@ std::shared_ptr<Destination> destination_of(const std::shared_ptr<const WarpChai
     const auto has_image = [chain](std::uint64_t i, std::span<const double> row) {
         return !chain->forward({row.begin(), row.end()}, i).empty();
     };
-    return std::make_shared<Destination>(Destination{
-        has_image, chain->refills() && !chain->needs_whole_set(), chain->outcome_axes()});
+    return std::make_shared<Destination>(
+        Destination{has_image, chain->traits().refills && !chain->traits().needs_whole_set,
+                    chain->outcome_axes()});
 }
 
 }  // namespace
@@ -241,7 +237,7 @@ std::unique_ptr<Sequence> GeneratedSets::new_sequence(Plan plan, std::uint64_t s
 }
 
 std::uint64_t GeneratedSets::different_sets() const {
-    return uses_seed(generator_, asked_.options) || chain_->seeded() ? asked_.sets : 1;
+    return uses_seed(generator_, asked_.options) || chain_->traits().seeded ? asked_.sets : 1;
 }
 
 NextRows GeneratedSets::stream(std::uint64_t set, const RunContext& run, std::uint64_t first,
@@ -271,8 +267,8 @@ PointSet GeneratedSets::raw_points(std::uint64_t set, const Plan& plan,
 }
 
 bool GeneratedSets::goes_on() const {
-    return chain_->refills() && plan_.count > 0 && generator_.traits.sequence &&
-           generator_.traits.prefix && !chain_->needs_whole_set();
+    return chain_->traits().refills && plan_.count > 0 && generator_.traits.sequence &&
+           generator_.traits.prefix && !chain_->traits().needs_whole_set;
 }
 
 void GeneratedSets::keep_runs(PointSet& points, const RunContext& run) const {
@@ -303,14 +299,14 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
     double efficiency = 1;
     if (!chain_->empty()) {
         const RunContext rest = run.best_is_wanted() ? unstopped(run) : run;
-        if (chain_->refills() && plan_.count > 0) {
+        if (chain_->traits().refills && plan_.count > 0) {
             auto [rows, made, kept] =
                 next ? next_images(set, rest) : images_of_more(set, points, rest);
             points = PointSet(std::move(rows), dimension());
             points.provenance.efficiency = static_cast<double>(kept) / static_cast<double>(made);
         } else {
-            points = chain_for(set, rest, points.count())
-                         ->image(points, rest.stage(1, 1), asked_.request.start);
+            points = image_of(points, *chain_for(set, rest, points.count()), rest.stage(1, 1),
+                              asked_.request.start);
         }
         efficiency = points.provenance.efficiency;
         keep_runs(points, rest);
@@ -487,7 +483,7 @@ Provenance GeneratedSets::provenance(std::uint64_t set, std::uint64_t count) con
                     .count = count,
                     .dimension = dimension(),
                     .start = asked_.request.start,
-                    .warps = chain_->specs(),
+                    .warps = chain_->record().specs,
                     .domain = domain_->spec(),
                     .bounds = {},
                     .shard = {},
@@ -496,14 +492,14 @@ Provenance GeneratedSets::provenance(std::uint64_t set, std::uint64_t count) con
     std::erase_if(meta.options, [this](const auto& option) {  // options that only write side files
         return std::ranges::find(generator_.writes, option.first) != generator_.writes.end();
     });
-    meta.columns = chain_->names({}, false);
-    meta.levels = chain_->levels();
+    meta.columns = chain_->names();
+    meta.levels = levels_of(*chain_);
     if (asked_.request.bounds) meta.bounds = format_box(*asked_.request.bounds);
     meta.inputs = inputs_;
     if (sequence_) meta.found = sequence_->found();
     if (generator_.stream_version > 1)
         meta.stream_versions.emplace_back(generator_.name, generator_.stream_version);
-    const auto& later = chain_->stream_versions();
+    const auto& later = chain_->record().stream_versions;
     meta.stream_versions.insert(meta.stream_versions.end(), later.begin(), later.end());
     return meta;
 }

@@ -28,7 +28,7 @@ class Producer {
         if (job_.shard.of > 1 && job_.sets > 1)
             fail(ErrorKind::usage,
                  "--shard divides one set; use --seed to choose which, instead of --sets");
-        if (job_.shard.of > 1 && sets_.chain().needs_whole_set())
+        if (job_.shard.of > 1 && sets_.chain().traits().needs_whole_set)
             fail(ErrorKind::usage,
                  "--shard: the parameters of a whole set are reordered; make all points at once");
         check_columns();

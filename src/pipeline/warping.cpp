@@ -25,11 +25,11 @@ void record_warp(PointSet& set, const WarpChain& chain, bool inverse,
     if (meta.precision) meta.warps.push_back(fmt::format("{}{}", cut_to_digits, *meta.precision));
     meta.single = false;
     meta.precision.reset();
-    const std::string warp = std::string(inverse ? inverse_of : "") + chain.specs().front();
+    const std::string warp = std::string(inverse ? inverse_of : "") + chain.record().specs.front();
     for (const auto& input : inputs)
         if (std::ranges::find(meta.inputs, input) == meta.inputs.end())
             meta.inputs.push_back(input);
-    for (const auto& version : chain.stream_versions())
+    for (const auto& version : chain.record().stream_versions)
         if (std::ranges::find(meta.stream_versions, version) == meta.stream_versions.end())
             meta.stream_versions.push_back(version);
     meta.dimension = set.dimension();
@@ -92,7 +92,7 @@ struct Warping {
             fail(ErrorKind::usage,
                  "--with-{}: the inverse gives points of the unit cube, density 1",
                  target.columns.names().front());
-        inputs = fingerprints(chain->files(), run);
+        inputs = fingerprints(chain->record().files, run);
         cube = fmt::format("the unit cube [0, 1]^{}", taken.size());
         if (!spec.coordinates.empty()) cube += " in coordinates " + format_coordinates(taken);
     }
@@ -110,12 +110,13 @@ struct Warping {
     /// Sets `stretch` to the warp alone, without the domains of other coordinates.
     /// @throws Error(input) if the change of the densities is not known
     void find_stretch(const Spec& spec, const ChainSet& set, const RunContext& run) {
-        if (!inverse && (chain->drops() || chain->needs_whole_set()))
+        if (!inverse && (chain->traits().drops || chain->traits().needs_whole_set))
             fail_with_hint(ErrorKind::input,
                            "--column picks the coordinates, which are then taken to be uniform",
                            "the points have a column of densities; how the warp {} changes these "
                            "is not known, for it {}",
-                           spec.name, chain->drops() ? "leaves points out" : "reorders points");
+                           spec.name,
+                           chain->traits().drops ? "leaves points out" : "reorders points");
         stretch = before.empty() ? chain
                                  : std::make_shared<WarpChain>(std::span(&spec, 1),
                                                                chain->dimension_in(), set, run);
@@ -144,7 +145,7 @@ PointSet warped(const PointSet& set, const Warping& warping, const RunContext& r
     const auto& [inverse, taken, cube, before, chain, inputs, stretch] = warping;
     if (!inverse) require_in_cube(set, taken, cube);
     const bool said = inverse || others_in_cube(set, taken, before);
-    PointSet image = inverse ? chain->preimage(set, run) : chain->image(set, run);
+    PointSet image = inverse ? preimage_of(set, *chain, run) : image_of(set, *chain, run);
     record_warp(image, *chain, inverse, inputs);
     if (!said) image.provenance.domain.clear();
     if (!set.densities.empty()) image.densities = warping.densities(set, image);
@@ -171,7 +172,7 @@ NextRows warped_rows(io::PointStream& stream, const Warping& warping, std::size_
             if (!images.empty()) return images.size() / wide;
         }
         refuse_second_set(stream);
-        if (!warping.inverse) warping.chain->tell_kept(came, kept, quiet);
+        if (!warping.inverse) tell_kept(*warping.chain, came, kept, quiet);
         return 0;
     };
 }
@@ -257,7 +258,7 @@ void write_warped(Unwarped from, const Spec& warp, bool inverse, const Target& t
         return write_sets(stream_of(from.sets, &chain), wider, run);
     }
     SetStream images = stream_of(*from.stream, from.on);
-    images.domain = inverse ? chain.domain_before(from.on) : chain.domain();
+    images.domain = inverse ? domain_before(chain, from.on) : chain.domain();
     images.chain = &chain;
     images.open = [&](std::size_t, const RunContext&) {
         from.stream->next_set();
@@ -267,7 +268,7 @@ void write_warped(Unwarped from, const Spec& warp, bool inverse, const Target& t
         SetsHead changed = head(first, last);
         Provenance& meta = changed.provenance;
         meta.columns = chain.names(std::move(meta.columns), inverse);
-        if (!inverse) std::ranges::move(chain.levels(), std::back_inserter(meta.levels));
+        if (!inverse) std::ranges::move(levels_of(chain), std::back_inserter(meta.levels));
         return changed;
     };
     write_sets(images, target, run);
@@ -278,7 +279,7 @@ void write_density_at(const Unwarped& at, const Spec& warp, Target target, const
     const std::size_t d = dimension_before(warp, on->dimension(), run);
     auto chain = std::make_unique<WarpChain>(std::span(&warp, 1), d, ChainSet{}, run);
     // Coordinates that the warp does not make keep their domains.
-    auto others = warped_factors(chain->domain_before(on), named_or_all(warp, d));
+    auto others = warped_factors(domain_before(*chain, on), named_or_all(warp, d));
     if (!others.empty())
         chain =
             std::make_unique<WarpChain>(std::span(&warp, 1), d, ChainSet{}, run, std::move(others));

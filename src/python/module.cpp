@@ -122,7 +122,7 @@ py::array scramble(const std::string& text, const Settings& settings, const Arra
                                    points = points_of(rows, "unit-cube")](const RunContext& run) {
         const WarpChain chain({&spec, 1}, points.dimension(),
                               {.seed = seed, .count = start + points.count(), .bases = bases}, run);
-        return chain.image(points, run, start);
+        return image_of(points, chain, run, start);
     }));
 }
 

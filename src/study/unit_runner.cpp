@@ -125,8 +125,8 @@ bool takes(const Chosen<Analyzer>& measure, const WarpChain& chain, const RunCon
     if (measure.unit->traits.unit_cube) return false;
     if (measure.unit->traits.boxed && !spec.starts_with("box")) return false;
     const std::size_t d = chain.dimension_in();
-    const PointSet points = some_points(d, chain.needs_whole_set() ? 64 + d : 64);
-    return takes_points(measure, chain.image(points, unwarned(silent(run))), run) ||
+    const PointSet points = some_points(d, chain.traits().needs_whole_set ? 64 + d : 64);
+    return takes_points(measure, image_of(points, chain, unwarned(silent(run))), run) ||
            !takes_points(measure, points, run);
 }
 
@@ -149,13 +149,13 @@ void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t see
     const ChainSet set = chain_set(
         *generator.unit, {.count = points.count(), .dimension = d, .seed = seed}, generator.values);
     if (!sweep.scrambles().empty())
-        points = WarpChain(sweep.scrambles(), d, set, run).image(points, run);
+        points = image_of(points, WarpChain(sweep.scrambles(), d, set, run), run);
     // The random choices of a scramble depend only on seed and coordinates, so that a chain in two
     // parts gives the same points.
     if (sweep.later_warps().empty()) return;
     const WarpChain chain(sweep.later_warps(), d, set, run);
-    if (!chain.refills() && !chain.needs_whole_set()) {
-        made.image = chain.image(points, run);
+    if (!chain.traits().refills && !chain.traits().needs_whole_set) {
+        made.image = image_of(points, chain, run);
         return;
     }
     const auto made_together = [&](std::vector<Spec> warps) {
@@ -298,7 +298,7 @@ std::optional<Error> UnitRunner::refusal_of(std::size_t measure, std::size_t dim
     const auto warps = sweep_.later_warps();
     try {
         if (!warps.empty() && takes_image(dimension, measure))
-            points = WarpChain(warps, dimension, {}, run).image(points, unwarned(silent(run)));
+            points = image_of(points, WarpChain(warps, dimension, {}, run), unwarned(silent(run)));
     } catch (const Error& e) {
         if (e.kind() == ErrorKind::cancelled) throw;
         return std::nullopt;  // its rows report what is wrong

@@ -66,7 +66,7 @@ TEST(WarpChain, RimsComeBackBelowOne) {
 TEST(WarpChain, TheWayBackLeavesTheDomainsOfOtherCoordinates) {
     const auto sphere = chain({"sphere@1,2"}, 5);
     const auto before = [&](const std::string& after) {
-        return sphere.domain_before(parse_domain(after, 6))->spec();
+        return domain_before(sphere, parse_domain(after, 6))->spec();
     };
     EXPECT_EQ(before("sphere@1,2,3 x disk@5,6 x unit-cube@4"), "disk@4,5 x unit-cube@1,2,3");
     EXPECT_EQ(before("sphere@1,2,3 x unit-cube@4,5,6"), "unit-cube");
@@ -76,7 +76,7 @@ TEST(WarpChain, TheWayBackLeavesTheDomainsOfOtherCoordinates) {
 
 TEST(WarpChain, DroppedPointsTakeTheirWholeRow) {
     const auto rejection = chain({"disk@1,2:method=rejection"}, 3);
-    EXPECT_TRUE(rejection.drops());
+    EXPECT_TRUE(rejection.traits().drops);
     const auto out = rejection.forward({0.5, 0.5, 0.1, 0.01, 0.01, 0.2, 0.75, 0.5, 0.3});
     EXPECT_EQ(out, (std::vector<double>{0, 0, 0.1, 0.5, 0, 0.3}));
 }
@@ -100,11 +100,11 @@ TEST(WarpChain, RefusesWhatDoesNotFit) {
 
 TEST(WarpChain, RefusesPointsThatItWasNotMadeFor) {
     const WarpChain disk = chain({"disk"}, 2);
-    EXPECT_EQ(error_of([&] { static_cast<void>(disk.image(PointSet(5, 3), {})); }),
+    EXPECT_EQ(error_of([&] { static_cast<void>(image_of(PointSet(5, 3), disk, {})); }),
               "input: the points have 3 coordinates; the warps take 2");
-    EXPECT_EQ(error_of([&] { static_cast<void>(disk.preimage(PointSet(5, 3), {})); }),
+    EXPECT_EQ(error_of([&] { static_cast<void>(preimage_of(PointSet(5, 3), disk, {})); }),
               "input: the points have 3 coordinates; the warps give 2");
-    PointSet once = disk.image(points_of({{0.9, 0.5}}), {});
+    PointSet once = image_of(points_of({{0.9, 0.5}}), disk, {});
     once.domain = unit_cube(2);  // like a file without provenance
     EXPECT_NE(error_of([&] {
                   static_cast<void>(warp("disk", once));
@@ -122,7 +122,7 @@ TEST(WarpChain, NothingLeavesTheCube) {
 TEST(WarpChain, ScramblesKeepCoordinatesInTheCubeForWhatFollows) {
     const std::vector<double> rows = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
     const auto alone = chain({"owen"}, 3);
-    EXPECT_TRUE(alone.seeded());
+    EXPECT_TRUE(alone.traits().seeded);
     EXPECT_EQ(alone.domain()->spec(), "unit-cube");
     const auto owen = alone.forward(rows);
     const auto both = chain({"owen", "disk@1,2", "digital-shift@3:seed=5"}, 3);
@@ -145,7 +145,7 @@ TEST(WarpChain, ScramblesGoByTheSetsSeedOrTheirOwn) {
     EXPECT_NE(image(plain, 1), image(plain, 2));
     EXPECT_EQ(image(own, 1), image(own, 2));
     EXPECT_EQ(image(own, 1), image(plain, ~std::uint64_t{0}));
-    EXPECT_FALSE(WarpChain({&own, 1}, 2).seeded());
+    EXPECT_FALSE(WarpChain({&own, 1}, 2).traits().seeded);
     EXPECT_EQ(error_of([] { chain({"owen:seed=-1"}, 2); }),
               "usage: owen: seed '-1' is not a whole number in [0, 2^64)");
     EXPECT_EQ(error_of([&] { static_cast<void>(chain({"owen"}, 2).inverse(rows)); }),
@@ -167,7 +167,7 @@ TEST(WarpChain, TellsOnceOfTheFirstPointThatIsInfinitelyFar) {
         RunContext run{.threads = 3};
         run.warn = [&](const std::string& note) { notes.push_back(note); };
         for (int again = 0; again < 2; ++again)
-            EXPECT_EQ(warps.image(points, run).count(), points.count());
+            EXPECT_EQ(image_of(points, warps, run).count(), points.count());
         return notes;
     };
     PointSet far = make("random", points(50'000, 2));

@@ -238,9 +238,9 @@ TEST(Integration, TakesTheDensityOfTheFactorThatIsBiased) {
     const Spec naive = parse_spec("disk@3,4:method=naive");
     const Spec right = parse_spec("disk@1,2");
     const WarpChain chain(std::vector{right, naive}, 4);
-    PointSet set = chain.image(random_points(100'000, 4, 9), {});
+    PointSet set = image_of(random_points(100'000, 4, 9), chain, {});
     set.provenance.independent = true;
-    set.provenance.warps = chain.specs();
+    set.provenance.warps = chain.record().specs;
     const Report found = analyze("integration", set, {{"expression", "x1*x1*x3*x3 + x4"}});
     const double exact = std::numbers::pi * std::numbers::pi / 16;
     EXPECT_NEAR(found.number("expression.estimate"), exact,

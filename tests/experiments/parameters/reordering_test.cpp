@@ -230,7 +230,7 @@ TEST(Reordering, TakesTheWholeSetOfAChain) {
         R"("spearman":[["a","b",0.8]]}}])";
     const std::vector<Spec> specs = {parse_spec("owen:seed=4"), parse_spec(json)};
     const WarpChain chain(specs, 3, {.seed = 1, .count = 20000});
-    EXPECT_TRUE(chain.needs_whole_set());
+    EXPECT_TRUE(chain.traits().needs_whole_set);
     const PointSet cube = make("random", points(20000, 3));  // of several blocks
     const auto all = chain.mapped(cube.flat(), false, 0, {});
     EXPECT_EQ(all, chain.forward(numbers_of(cube)));
