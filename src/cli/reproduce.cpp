@@ -563,7 +563,8 @@ class Reproducer {
         const auto& generator = *recipe_.job.generator;
         Values options = recipe_.job.options;
         generator.options.set(options, original_.picture, "picture.png");
-        const PointSet points = make_points(generator, recipe_.job.request, options, run_);
+        const PointSet points =
+            GeneratedSets({&generator, options, recipe_.job.request}, run_).made(0, run_);
         if (points.side_files.empty())
             fail(ErrorKind::input, "{}: {} makes no such picture", original_.name, generator.name);
         const std::string bytes = io::read_bytes(original_.path, run_);

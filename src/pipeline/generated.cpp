@@ -64,22 +64,7 @@ PointSet points_of(Sequence& sequence, const Plan& plan, std::uint64_t start,
     return points;
 }
 
-/// Generates a set with a generator that makes all its points together.
-PointSet set_of(const Generator& generator, const Plan& plan, const Values& options,
-                const RunContext& run) {
-    need_memory_of(plan, run);
-    return generator.set(plan, options, run);
-}
-
 }  // namespace
-
-PointSet make_points(const Generator& generator, const Request& request, const Values& options,
-                     const RunContext& run) {
-    const Plan plan = plan_for(generator, request, options);
-    if (!generator.traits.sequence) return set_of(generator, plan, options, run);
-    const RunContext steady = run.rising();
-    return points_of(*generator.sequence(plan, options, steady), plan, request.start, steady);
-}
 
 void Scaling::apply(std::span<double> rows, std::size_t width) const {
     if (columns.size() == width) return scale_into(box, rows);
@@ -258,7 +243,10 @@ NextRows GeneratedSets::stream(std::uint64_t set, const RunContext& run, std::ui
 
 PointSet GeneratedSets::raw_points(std::uint64_t set, const Plan& plan,
                                    const RunContext& run) const {
-    if (!generator_.traits.sequence) return set_of(generator_, plan, asked_.options, run);
+    if (!generator_.traits.sequence) {
+        need_memory_of(plan, run);
+        return generator_.set(plan, asked_.options, run);
+    }
     const RunContext steady = run.rising();
     const auto points = plan.count == plan_.count
                             ? sequence(set, steady)

@@ -44,11 +44,6 @@ struct SetsToMake {
 /// @throws Error(usage)
 Box bounds_for(const SetsToMake& asked, std::string_view text);
 
-/// Generates all points of a request in memory. Unlike generate(), does not note anything, scale to
-/// the bounds, or record provenance.
-PointSet make_points(const Generator& generator, const Request& request, const Values& options,
-                     const RunContext& run);
-
 /// Maps some coordinates of points from the unit cube to a box.
 struct Scaling {
     Box box;

@@ -140,38 +140,31 @@ struct MadeSet {
 void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t seed,
           const RunContext& run) {
     const auto& generator = sweep.generators()[cell.generator];
-    const Request request{.count = cell.count, .dimension = cell.dimension, .seed = seed};
+    SetsToMake job{.generator = generator.unit,
+                   .options = generator.values,
+                   .request = {.count = cell.count, .dimension = cell.dimension, .seed = seed}};
+    const auto generated = [&](std::span<const Spec> warps) {
+        job.warps = {warps.begin(), warps.end()};
+        return GeneratedSets(job, run).made(0, run);
+    };
     PointSet& points = made.before;
-    points = make_points(*generator.unit, request, generator.values, run);
-    points.provenance.generator = generator.unit->name;
-    points.provenance.independent = generator.unit->traits.independent;
-    const std::size_t d = points.dimension();
-    const ChainSet set = chain_set(
-        *generator.unit, {.count = points.count(), .dimension = d, .seed = seed}, generator.values);
-    if (!sweep.scrambles().empty())
-        points = image_of(points, WarpChain(sweep.scrambles(), d, set, run), run);
+    points = generated(sweep.scrambles());
+    points.provenance.warps.clear();
+    if (sweep.later_warps().empty()) return;
     // The random choices of a scramble depend only on seed and coordinates, so that a chain in two
     // parts gives the same points.
-    if (sweep.later_warps().empty()) return;
+    const std::size_t d = points.dimension();
+    const Plan plan{.count = points.count(), .dimension = d, .seed = seed};
+    const ChainSet set = chain_set(*generator.unit, plan, generator.values);
     const WarpChain chain(sweep.later_warps(), d, set, run);
     if (!chain.traits().refills && !chain.traits().needs_whole_set) {
         made.image = image_of(points, chain, run);
         return;
     }
-    const auto made_together = [&](std::vector<Spec> warps) {
-        warps.insert(warps.begin(), sweep.scrambles().begin(), sweep.scrambles().end());
-        return GeneratedSets({.generator = generator.unit,
-                              .options = generator.values,
-                              .request = request,
-                              .sets = 1,
-                              .warps = std::move(warps)},
-                             unwarned(silent(run)))
-            .made(0, run);
-    };
-    std::vector<Spec> warps(sweep.later_warps().begin(), sweep.later_warps().end());
-    made.image = made_together(warps);
+    std::vector<Spec> warps = sweep.warps();
+    made.image = generated(warps);
     warps.back() = in_unit_cube(warps.back());
-    points = made_together(warps);
+    points = generated(warps);
 }
 
 /// Whether one of the words is a part of the key between dots: value, centered and both match
