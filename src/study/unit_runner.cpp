@@ -6,6 +6,7 @@
 #include <cmath>
 #include <condition_variable>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <new>
@@ -149,7 +150,6 @@ void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t see
     };
     PointSet& points = made.before;
     points = generated(sweep.scrambles());
-    points.provenance.warps.clear();
     if (sweep.later_warps().empty()) return;
     // The random choices of a scramble depend only on seed and coordinates, so that a chain in two
     // parts gives the same points.
@@ -159,6 +159,7 @@ void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t see
     const WarpChain chain(sweep.later_warps(), d, set, run);
     if (!chain.traits().refills && !chain.traits().needs_whole_set) {
         made.image = image_of(points, chain, run);
+        std::ranges::copy(chain.record().specs, std::back_inserter(made.image->provenance.warps));
         return;
     }
     std::vector<Spec> warps = sweep.warps();

@@ -91,6 +91,29 @@ TEST(Study, RowsAreWhatAnalyzeSaysOfTheSameSets) {
     EXPECT_THAT(rows.front().at("generator_options"), HasSubstr("rng=philox"));
 }
 
+// A radius in the provenance is not that of scrambled points, and those of a biased warp have
+// densities of their own.
+TEST(Study, MeasuresKnowTheWarpsOfTheirPoints) {
+    const Sandbox box;
+    for (const std::string what : {"poisson-disk -w owen", "integration -w disk:method=naive",
+                                   "integration -w owen -w disk:method=naive"}) {
+        const auto rows = rows_of(good(box.shell(
+            "stipple study --generators poisson-disk -n 40 --quiet --no-seconds --analyze " +
+            what)));
+        const auto report = json::parse(
+            good(box.shell("stipple analyze --generate poisson-disk -n 40 --quiet " + what)));
+        EXPECT_GE(rows.size(), 2U) << what;
+        for (const Row& row : rows) {
+            std::string path = row.at("key");
+            std::ranges::replace(path, '.', '/');
+            const auto& there = report.at(json::json_pointer("/results/" + path));
+            EXPECT_EQ(std::stod(row.at("value")),
+                      there.is_boolean() ? there.get<bool>() : there.get<double>())
+                << what << ": " << path;
+        }
+    }
+}
+
 TEST(Study, BytesDoNotDependOnThreads) {
     const Sandbox box;
     const std::string one = good(box.shell(small + std::string("--threads 1")));
