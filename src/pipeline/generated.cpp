@@ -187,19 +187,6 @@ std::shared_ptr<const WarpChain> GeneratedSets::make_chain(const ChainSet& set,
     return std::make_shared<WarpChain>(asked_.warps, plan_.dimension, in_bases, run);
 }
 
-namespace {
-
-std::shared_ptr<Destination> destination_of(const std::shared_ptr<const WarpChain>& chain) {
-    const auto has_image = [chain](std::uint64_t i, std::span<const double> row) {
-        return !chain->forward({row.begin(), row.end()}, i).empty();
-    };
-    return std::make_shared<Destination>(
-        Destination{has_image, chain->traits().refills && !chain->traits().needs_whole_set,
-                    chain->outcome_axes()});
-}
-
-}  // namespace
-
 std::shared_ptr<Sequence> GeneratedSets::sequence(std::uint64_t set, const RunContext& run) const {
     if (sequence_ && !uses_seed(generator_, asked_.options)) return sequence_;
     Plan plan = plan_;
@@ -213,10 +200,16 @@ std::unique_ptr<Sequence> GeneratedSets::new_sequence(Plan plan, std::uint64_t s
     if (!chain_->empty() &&
         (whole || std::ranges::any_of(chain_->outcome_axes(), &OutcomeAxis::discrete))) {
         const auto chain = chain_for(set, run);
-        auto destination = destination_of(chain);
+        Destination destination{
+            .has_image =
+                [chain](std::uint64_t i, std::span<const double> row) {
+                    return !chain->forward({row.begin(), row.end()}, i).empty();
+                },
+            .drops = chain->traits().refills && !chain->traits().needs_whole_set,
+            .axes = chain->outcome_axes()};
         if (goes_on_from_runs(asked_.options, *chain))
-            destination->given = earlier_runs(asked_.options, *chain, run).cube;
-        plan.destination = std::move(destination);
+            destination.given = earlier_runs(asked_.options, *chain, run).cube;
+        plan.destination = std::make_shared<Destination>(std::move(destination));
     }
     return generator_.sequence(plan, asked_.options, run);
 }
@@ -254,11 +247,6 @@ PointSet GeneratedSets::raw_points(std::uint64_t set, const Plan& plan,
     return points_of(*points, plan, asked_.request.start, steady);
 }
 
-bool GeneratedSets::goes_on() const {
-    return chain_->traits().refills && plan_.count > 0 && generator_.traits.sequence &&
-           generator_.traits.prefix && !chain_->traits().needs_whole_set;
-}
-
 void GeneratedSets::keep_runs(PointSet& points, const RunContext& run) const {
     if (!goes_on_from_runs(asked_.options, *chain_)) return;
     const PointSet runs = earlier_runs(asked_.options, *chain_, run).runs;
@@ -276,7 +264,10 @@ void GeneratedSets::tell_absent_levels(const RunContext& run) const {
 
 PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
     const RunContext steady = run.rising();
-    const bool next = goes_on();
+    const bool refills = chain_->traits().refills && plan_.count > 0;
+    // Whether points without an image are replaced by later points of the sequence.
+    const bool next = refills && generator_.traits.sequence && generator_.traits.prefix &&
+                      !chain_->traits().needs_whole_set;
     Plan plan = plan_;
     plan.seed += set;
     PointSet points = next ? PointSet() : raw_points(set, plan, run);
@@ -287,7 +278,7 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
     double efficiency = 1;
     if (!chain_->empty()) {
         const RunContext rest = run.best_is_wanted() ? unstopped(run) : run;
-        if (chain_->traits().refills && plan_.count > 0) {
+        if (refills) {
             auto [rows, made, kept] =
                 next ? next_images(set, rest) : images_of_more(set, points, rest);
             points = PointSet(std::move(rows), dimension());

@@ -106,8 +106,6 @@ class GeneratedSets {
     /// Generates the points of a set, before its warps.
     [[nodiscard]] PointSet raw_points(std::uint64_t set, const Plan& plan,
                                       const RunContext& run) const;
-    /// Whether points without an image are replaced by later points of the sequence.
-    [[nodiscard]] bool goes_on() const;
     /// Replaces the images of earlier runs, which are the first points, by the exact numbers in the
     /// file of these runs.
     void keep_runs(PointSet& points, const RunContext& run) const;
