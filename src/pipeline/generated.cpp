@@ -263,7 +263,6 @@ void GeneratedSets::tell_absent_levels(const RunContext& run) const {
 }
 
 PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
-    const RunContext steady = run.rising();
     const bool refills = chain_->traits().refills && plan_.count > 0;
     // Whether points without an image are replaced by later points of the sequence.
     const bool next = refills && generator_.traits.sequence && generator_.traits.prefix &&
