@@ -421,7 +421,7 @@ class AnalyzeCall {
                 constexpr std::size_t indent = 6;
                 std::string text;
                 for (const std::string& sentence :
-                     meaning_of(find_analyzer(m.analyzer), key, m.dimension))
+                     meaning_of(find_analyzer(m.analyzer), key, m.dimension, m.options))
                     text +=
                         std::string(indent, ' ') + filled(sentence, text_columns(), indent) + "\n";
                 return text;

@@ -140,8 +140,9 @@ std::string rule_of(const Key& key) {
 }
 
 /// A title attribute that explains a result; empty if there is no explanation.
-std::string explained(std::string_view analyzer, std::string_view key, std::size_t dimension) {
-    const auto sentences = meaning_of(find_analyzer(analyzer), key, dimension);
+std::string explained(const Analyzer& analyzer, std::string_view key, std::size_t dimension,
+                      const GivenOptions& options) {
+    const auto sentences = meaning_of(analyzer, key, dimension, options);
     if (sentences.empty()) return {};
     return fmt::format(" title=\"{}\"", html_text(join(sentences, "; ")));
 }
@@ -174,12 +175,13 @@ std::string comparison_of(std::span<const Set> sets) {
         }
         const std::string_view key = row.key.key;
         const auto dot = key.find('.');
-        out += fmt::format("<tr data-key=\"{}\"{}><th scope=\"row\"{}>{}{}</th>", key,
-                           rule_of(row.key),
-                           explained(planned(key.substr(0, dot))->analyzer->name,
-                                     key.substr(dot + 1), sets[0].dimension),
-                           html_text(row.key.label) + (key.ends_with("p_value") ? of_first : ""),
-                           arrow_of(row.key.better));
+        const Planned& measure = *planned(key.substr(0, dot));
+        out += fmt::format(
+            "<tr data-key=\"{}\"{}><th scope=\"row\"{}>{}{}</th>", key, rule_of(row.key),
+            explained(*measure.analyzer, key.substr(dot + 1), sets[0].dimension,
+                      {measure.measure->options.begin(), measure.measure->options.end()}),
+            html_text(row.key.label) + (key.ends_with("p_value") ? of_first : ""),
+            arrow_of(row.key.better));
         for (std::size_t i = 0; i < sets.size(); ++i) out += cell_of(row, i);
         out += "</tr>\n";
     }
@@ -189,10 +191,12 @@ std::string comparison_of(std::span<const Set> sets) {
     out += "</tbody></table></div>\n";
     if (sets.size() > 1)
         out +=
-            "<p class=\"note\">★ marks a set that is certainly not worse than any other shown; ↓ "
-            "lower is better, ↑ higher is better. “a to b” are certain bounds of a value that is "
-            "not known exactly; “a ± b” is the mean of several sets with its standard error, and "
-            "means count as different if they differ by more than two of these. Errors of "
+            "<p class=\"note\">★ marks a set if no other one shown is better; ↓ lower is better, ↑ "
+            "higher is better. “a to b” are certain bounds of a value that is not known exactly; "
+            "“a "
+            "± b” is the mean of several sets with its standard error, and means count as "
+            "different "
+            "if the intervals of two standard errors around them do not overlap. Errors of "
             "integrands are shown without sign, for several sets as root mean square.</p>\n";
     return out + "</section>\n";
 }
@@ -201,8 +205,8 @@ std::string comparison_of(std::span<const Set> sets) {
 
 constexpr std::size_t most_listed = 8;  ///< limit for numbers of a list in a table
 
-std::string row_of(const std::string& analyzer, const std::string& key, const Report& results,
-                   std::size_t dimension) {
+std::string row_of(const Measure& measure, const std::string& key, std::size_t dimension) {
+    const Report& results = *measure.results;
     std::string shown = text_of(*results.find(key));
     std::string whole;
     if (const auto list = list_at(results, key)) {
@@ -215,15 +219,14 @@ std::string row_of(const std::string& analyzer, const std::string& key, const Re
     }
     if (shown.empty()) return {};
     return fmt::format("<tr><th scope=\"row\"{}>{}</th><td class=\"number\"{}>{}</td></tr>\n",
-                       explained(analyzer, key, dimension), html_text(key), whole,
-                       html_text(shown));
+                       explained(find_analyzer(measure.analyzer), key, dimension, measure.options),
+                       html_text(key), whole, html_text(shown));
 }
 
 std::string measure_of(const Measure& measure, std::size_t dimension) {
     std::string out = fmt::format("<div class=\"measure\">\n<h3>{}</h3>\n<table><tbody>\n",
                                   html_text(measure.title));
-    for (const std::string& key : measure.results->keys())
-        out += row_of(measure.analyzer, key, *measure.results, dimension);
+    for (const std::string& key : measure.results->keys()) out += row_of(measure, key, dimension);
     out += "</tbody></table>\n";
     if (!measure.command.empty()) out += fmt::format("<pre>{}</pre>\n", html_text(measure.command));
     return out + "</div>\n";

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/text.hpp"
 
 namespace stipple {
@@ -26,16 +28,27 @@ std::string typical_in_words(std::string_view analyzer, std::string_view key, Be
     return {};
 }
 
+/// Whether all flags and choices are those of the default.
+bool has_default_choices(const Analyzer& analyzer, const GivenOptions& given) {
+    return std::ranges::all_of(analyzer.options.options(), [&](const Option& option) {
+        const auto it = std::ranges::find(given, option.name, &GivenOptions::value_type::first);
+        if (it == given.end() || (option.type != "choice" && option.type != "flag")) return true;
+        const auto* usual = std::get_if<std::string>(&option.fallback);
+        return !option.optional && it->second == (usual ? *usual : "false");
+    });
+}
+
 }  // namespace
 
 std::vector<std::string> meaning_of(const Analyzer& analyzer, std::string_view key,
-                                    std::size_t dimension) {
+                                    std::size_t dimension, const GivenOptions& given) {
     std::vector<std::string> sentences;
     const ResultKey* result = find_result(analyzer, key);
     if (result == nullptr) return sentences;
     sentences.push_back(result->help);
     auto words = typical_in_words(analyzer.name, key, result->better);
-    if (dimension == 2 && !words.empty()) sentences.push_back(std::move(words));
+    if (dimension == 2 && !words.empty() && has_default_choices(analyzer, given))
+        sentences.push_back(std::move(words));
     return sentences;
 }
 

@@ -263,6 +263,8 @@ def test_integrals_have_errors():
     assert len(found.estimates) == 32
     area = stipple.integrate(lambda x: np.ones(len(x)), "random", 16, 2, warp="disk", replications=2)
     assert area.estimate == pytest.approx(np.pi)
+    square = stipple.integrate(lambda x: x[:, 0] ** 2, "sobol:scramble=owen", 1024, 2, warp="normal", mean=True)
+    assert square.estimate == pytest.approx(1, abs=0.02)
     for warp in (None, "sphere"):
         with pytest.raises(stipple.Error, match="do not depend on the seed"):
             stipple.integrate(lambda x: x[:, 0], "halton", 16, 2, warp=warp)
@@ -285,6 +287,7 @@ def test_integrands_are_functions():
     disk = stipple.warp(x, "disk")
     ones = stipple.analyze("integration", disk, integrand=lambda x: np.ones(len(x)))
     assert ones["lambda"].estimate == pytest.approx(np.pi)
+    assert stipple.analyze("integration", disk, integrand=lambda x: np.ones(len(x)), mean=True)["lambda"].estimate == 1
 
 
 def test_studies_are_tables(run):

@@ -194,10 +194,10 @@ void refine(Report& mean, std::size_t sets, const Values&) {
 std::vector<ResultKey> results() {
     std::vector<ResultKey> keys = {
         lower({"value",
-               "the star discrepancy; present only if exact, or if the bounds are within "
-               "--tolerance"}),
-        {"lower", "lower bound of the star discrepancy"},
-        {"upper", "upper bound of the star discrepancy"},
+               "the discrepancy of the --kind, the star discrepancy by default; present only if "
+               "exact, or if the bounds are within --tolerance"}),
+        {"lower", "lower bound of the discrepancy"},
+        {"upper", "upper bound of the discrepancy"},
         {"exact", "whether the two bounds are equal", true, true_or_false},
         {"method", "sweep-1d, sweep-2d or branch-and-bound", true,
          "sweep-1d|sweep-2d|branch-and-bound"},

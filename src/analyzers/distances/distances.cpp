@@ -116,8 +116,10 @@ Distances distances_in_box(const PointSet& points, const std::string& asked, con
     const std::optional<Box> box = box_of(*points.domain);
     if (!box) {
         static_cast<void>(distances_of(points, asked));  // throws a more specific error for a torus
-        fail(ErrorKind::input, "{} requires points of the unit cube or a box; the domain is {}",
-             analyzer, points.domain->title());
+        fail_with_hint(ErrorKind::input,
+                       "'stipple warp NAME --inverse' takes points back to the unit cube",
+                       "{} requires points of the unit cube or a box; the domain is {}", analyzer,
+                       points.domain->title());
     }
     const Outside outside = outside_of(points);
     if (outside.count > 0)

@@ -7,6 +7,8 @@
 // p is the domain's density (1 / measure if it is uniform), unless the points follow another one:
 // that of a column pdf or weight = 1 / pdf, or of a deliberately biased warp in their provenance.
 //
+// --mean estimates the mean of f under the points' distribution instead, (1 / n) sum_i f(x_i).
+//
 // Integrands of the unit cube apply to any box, with any density: the function is stretched to the
 // box and its integral multiplied by the volume.
 //
@@ -85,7 +87,14 @@ constexpr Param<double> exact{.name = "exact",
                               .optional = true,
                               .help =
                                   "Exact integral of the expression over the domain (over the part "
-                                  "of positive density, if that is smaller), if known"};
+                                  "of positive density, if that is smaller), or with --mean its "
+                                  "exact mean, if known"};
+
+constexpr Param<bool> as_mean{
+    .name = "mean",
+    .help =
+        "Estimate the mean of the expression over the points' distribution, such as an expected "
+        "value, instead of its integral over the domain"};
 
 constexpr Param<bool> compare{.name = "compare",
                               .help =
@@ -98,6 +107,7 @@ struct Task {
     Region region;
     std::function<double(std::span<const double>)> value;
     std::optional<Estimate> exact;  ///< over the support of the density; empty if unknown
+    bool mean = false;              ///< the mean of f is estimated, not its integral
 };
 
 const char* words(Region region) {
@@ -219,6 +229,7 @@ Task formula(const Domain& domain, const Values& options) {
     const Expression f("expression", options[expression], domain.dimension());
     Task task{"expression", Region::anywhere, [f](auto x) { return f.at(x); }, std::nullopt};
     if (options.given(exact)) task.exact = Estimate{options[exact], 0};
+    task.mean = options[as_mean];
     return task;
 }
 
@@ -228,6 +239,9 @@ std::vector<Task> tasks_of(const Domain& domain, const RegionView& view, const S
     const bool typed = options.given(expression);
     if (options.given(exact) && !typed)
         fail(ErrorKind::usage, "--exact: requires --expression, which is not given");
+    if (options[as_mean] && (!typed || options.given(integrand) || options[compare]))
+        fail(ErrorKind::usage,
+             "--mean: is for --expression, without --integrand and --compare, which integrate");
     std::vector<Task> tasks;
     if (options.given(integrand))
         tasks = tasks_named(options[integrand], domain, view, support);
@@ -306,7 +320,7 @@ class Evaluation {
         }
         const double density = density_of(points_, i);
         each(point, [&](std::size_t k, double value) {
-            const double weight = value == 0 ? 0 : value / density;
+            const double weight = value == 0 || tasks_[k].mean ? value : value / density;
             if (!std::isfinite(weight)) {
                 sums_.fault.add({i, k, value, density, false});
                 return;
@@ -489,10 +503,11 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     const Uniform uniform = comparing ? uniform_for(points, view, support) : Uniform();
     const Sums sums = sums_over(points, view, tasks, uniform, run);
     Report report;
-    tell_support(support, report);
+    if (!options[as_mean]) tell_support(support, report);
     const std::string& columns = points.provenance.density_column;
     const std::string column = columns.substr(0, columns.find(','));
-    if (!points.densities.empty()) report.add("density", column.empty() ? "warps" : column);
+    if (!points.densities.empty() && !options[as_mean])
+        report.add("density", column.empty() ? "warps" : column);
     for (std::size_t k = 0; k < tasks.size(); ++k) {
         const Tally& values = sums.weighted[k];
         Report one;
@@ -557,7 +572,8 @@ std::vector<ResultKey> results() {
     return {
         {"INTEGRAND.estimate",
          "mean of f / p, where p is the density of the points: from a column pdf or weight (1 / "
-         "pdf), or of a biased warp in the provenance; otherwise that of the domain"},
+         "pdf), or of a biased warp in the provenance; otherwise that of the domain. With --mean, "
+         "the mean of f"},
         {"INTEGRAND.exact", "exact integral; for an expression, the value of --exact"},
         lower({"INTEGRAND.error", "estimate - exact"}),
         {"INTEGRAND.exact_error", "bound on the error of exact, if computed by quadrature", false},
@@ -602,7 +618,7 @@ Analyzer unit() {
             .source = "Genz 1984; Owen 2003",
             .related = {"convergence", "rmse", "mse", "genz"},
             .traits = {.max_dimension = 10'000, .unit_cube = false, .densities = true},
-            .options = Schema(integrand, expression, exact, compare),
+            .options = Schema(integrand, expression, exact, as_mean, compare),
             .results = results(),
             .part = PagePart::integration,
             .page = {{"Integration",

@@ -188,9 +188,9 @@ Inputs inputs_of(const Columns& from, const Numbers& columns, const Known& known
     if (independent(*known.domain, inputs.points))
         inputs.domain = known.domain;
     else
-        run.notify(fmt::format(
-            "the inputs depend on each other on {}, but the indices assume independent inputs",
-            known.domain->title()));
+        run.notify(
+            "a constraint or a correlation makes the inputs depend on each other, but the indices "
+            "assume independent inputs: take them for a rough ranking");
     return inputs;
 }
 

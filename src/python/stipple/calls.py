@@ -234,9 +234,12 @@ def _values(function, x):
 
 def _integral_of(function, rows, domain, options):
     exact = options.pop("exact", None)
+    mean = options.pop("mean", False)
     if options:
-        raise Error(f"{next(iter(options))}: a function as integrand takes `exact` only")
-    values = _values(function, rows) / _stipple.density(domain, rows)
+        raise Error(f"{next(iter(options))}: a function as integrand takes `exact` and `mean` only")
+    values = _values(function, rows)
+    if not mean:
+        values = values / _stipple.density(domain, rows)
     estimate = float(np.mean(values))
     found = {"estimate": estimate}
     if exact is not None:
@@ -252,13 +255,15 @@ error, the Student t confidence interval [low, high], and the estimates."""
 
 
 def integrate(function, generator, n, d, *, replications=16, seed=1, confidence=0.95, warp=None,
-              **options):
+              mean=False, **options):
     """Integral of a function over the unit cube, or over the domain of a warp: an Integral.
 
     function      takes an array (m, d) of points; returns an array (m,) of values
     generator     name or spec; its seeds must give independent sets: "sobol:scramble=owen"
     replications  number of sets of n points, with seeds seed, seed + 1, ...; at least 2
     warp          one warp; values are divided by the density of its images
+    mean          estimate the mean of the values under the warp's distribution, such as an expected
+                  value, instead of the integral over its domain
     options       of the generator; and threads, max_memory, progress
     """
     if replications < 2:
@@ -271,7 +276,7 @@ def integrate(function, generator, n, d, *, replications=16, seed=1, confidence=
             raise Error(f"{generator}: its points do not depend on the seed; scramble them")
         before = x
         values = _values(function, x)
-        estimates.append(float(np.mean(values if warp is None else values / pdf(x, warp))))
+        estimates.append(float(np.mean(values if warp is None or mean else values / pdf(x, warp))))
     rows = [("", "", d, n, r, "", value, "") for r, value in enumerate(estimates)]
     mean, low, high = _stipple.means(rows, confidence)[0][6:9]
     error = float(np.std(estimates, ddof=1) / np.sqrt(replications))

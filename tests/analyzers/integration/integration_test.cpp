@@ -394,6 +394,28 @@ TEST(Integration, RefusesPointsWhereTheDensityIsZero) {
               "input: at point 1 the integrand measure is 1 and the density of ramp is 0");
 }
 
+// An expected value: the points are those of the distribution, so nothing is divided by its density.
+TEST(Integration, MeanIsTheExpectedValueOfTheDistribution) {
+    const PointSet set = make("sobol", points(4096, 2), {{"scramble", "owen"}});
+    const auto found = [&](const char* warp, const char* f) {
+        PointSet image = warped(*mapping(warp), set);
+        image.provenance.warps = {warp};
+        return analyze("integration", image,
+                       {{"expression", f}, {"mean", "true"}, {"exact", "13"}});
+    };
+    const auto mean = [&](const char* warp, const char* f) {
+        return found(warp, f).number("expression.estimate");
+    };
+    const char* normal = "normal:mean=[3,3],deviation=[2,2]";
+    EXPECT_NEAR(mean(normal, "x^2"), 9 + 4, 0.02);
+    EXPECT_NEAR(mean(normal, "x*y"), 9, 0.02);
+    EXPECT_EQ(mean(normal, "1"), 1);
+    EXPECT_EQ(found(normal, "x^2").number("expression.error"), mean(normal, "x^2") - 13);
+    EXPECT_NEAR(mean("disk:radius=2", "x^2+y^2"), 2, 1e-3);
+    // Points of a biased warp have another density; their mean is that of the values all the same.
+    EXPECT_NEAR(mean("disk:radius=2,method=naive", "x^2+y^2"), 4. / 3, 1e-3);
+}
+
 // int_0^1 int_0^1 x y^2 = 1/6; also on the ramp with the density of its points.
 TEST(Integration, TakesFormulas) {
     const PointSet set = make("sobol", points(1024, 2));
@@ -415,6 +437,14 @@ TEST(Integration, TakesFormulas) {
                   of(set, {{"exact", "1"}});
               }),
               "usage: --exact: requires --expression, which is not given");
+    for (const Settings& other : {Settings{}, Settings{{"expression", "x"}, {"compare", "true"}},
+                                  Settings{{"expression", "x"}, {"integrand", "owen"}}}) {
+        Settings settings = other;
+        settings.emplace_back("mean", "true");
+        EXPECT_EQ(error_of([&] { of(set, settings); }),
+                  "usage: --mean: is for --expression, without --integrand and --compare, which "
+                  "integrate");
+    }
     EXPECT_TRUE(error_of([&] {
                     of(set, {{"expression", "x+"}});
                 }).starts_with("usage: --expression: 'x+': the formula ends at column 3, where "));
