@@ -3,8 +3,11 @@
 # # Ten minutes in Python: make points, warp them, measure them
 #
 # To integrate a function, to render a picture or to explore a model, you must choose the points
-# at which to evaluate it. stipple makes such points, as NumPy arrays. Here are four, from a Sobol'
-# sequence. Each row is a point of the unit square, with its coordinates x and y.
+# at which to evaluate it. stipple makes such points, as NumPy arrays. Run this file as a script,
+# or cell by cell in Jupyter or Visual Studio Code, where you also see the pictures.
+#
+# The first cell makes four points of a Sobol' sequence. Each row is a point of the unit square,
+# with its coordinates x and y.
 # %%
 import numpy as np
 
@@ -13,18 +16,18 @@ import stipple
 print(stipple.generate("sobol", 4))
 
 # %% [markdown]
-# The first point, that of index 0, is the corner 0,0: an unfortunate place for functions such as
-# 1/x. Scrambling makes the digits of the coordinates random, and keeps the structure that makes
-# the set even. The numbers depend on nothing but the call and its seed (1 by default), so you see
-# the same ones on any machine.
+# The first point has the index 0 and is the corner 0,0. This corner is a bad place for some
+# functions: 1/x is infinite there. A scramble makes the digits of the coordinates random, but
+# keeps the structure that makes the set even. The numbers depend only on the call and its seed
+# (1 by default), so you see the same ones on any machine.
 # %%
 print(stipple.generate("sobol", 4, scramble="owen"))
 
 # %% [markdown]
 # ## Compare by eye
 #
-# How should 256 points be placed? Four generators answer differently. `random` has clumps and
-# gaps, because nothing keeps independent points apart.
+# How should 256 points be placed? This cell makes a set with each of four generators and draws
+# the first set. `random` has clumps and gaps, because nothing keeps independent points apart.
 # %%
 samplers = ["random", "jittered", "sobol:scramble=owen", "poisson-disk"]
 sets = {name: stipple.generate(name, 256) for name in samplers}
@@ -32,28 +35,32 @@ print(", ".join(f"{name}: {len(points)} points" for name, points in sets.items()
 stipple.plot(sets["random"], width=400)
 
 # %% [markdown]
-# `jittered` cuts the square into 16 x 16 cells, called strata, and puts one point at random into
-# each. Large gaps are gone, but two points can still meet at an edge.
+# `jittered` cuts the square into 16 x 16 cells, called strata. It puts one point at random into
+# each cell, so there are no large gaps. Two points in neighbouring cells can still be close
+# together.
 # %%
 stipple.plot(sets["jittered"], width=400)
 
 # %% [markdown]
-# `sobol` has one point in every cell of that grid, too, and of every other grid of 256 equal cells
-# with 1, 2, 4, ... or 256 columns.
+# `sobol` also has one point in every cell of that grid. The same is true of every other grid of
+# 256 equal cells with 1, 2, 4, ... or 256 columns.
 # %%
 stipple.plot(sets["sobol:scramble=owen"], width=400)
 
 # %% [markdown]
-# `poisson-disk` keeps a least distance between any two points. To the eye it looks the most even.
+# `poisson-disk` keeps a minimum distance between any two points. To the eye it looks the most
+# even.
 # %%
 stipple.plot(sets["poisson-disk"], width=400)
 
 # %% [markdown]
 # ## Measure
 #
-# The star discrepancy makes evenness a number. Of all boxes that begin in the corner 0,0, it takes
-# the one in which the fraction of the points differs most from the area, and that difference is
-# the star discrepancy. Lower is better. `analyze` returns a report; its results are attributes.
+# The star discrepancy measures evenness by a number. It looks at all boxes that begin in the
+# corner 0,0. In each box, it compares the fraction of the points inside with the area of the box.
+# The largest difference is the star discrepancy. Lower is better. `analyze` returns a report, and
+# its results are attributes. (The function `scipy.stats.qmc.discrepancy` computes a different
+# measure: the squared L2 discrepancies of the analyzer `l2-discrepancy`.)
 # %%
 for name, points in sets.items():
     found = stipple.analyze("star-discrepancy", points)
@@ -64,11 +71,13 @@ worst = report.worst_box
 print(f"\nThe worst box of random has {worst.points} of 256 points on {worst.volume:.1%} of the area.")
 
 # %% [markdown]
-# A spectrum shows evenness at every scale: low frequencies are large distances, and independent
-# points have a power of about 1 at all of them, up to chance (the grey band). Where the power is
-# low, the set has neither clumps nor gaps of that size. `poisson-disk` has little power at low
-# frequencies, and a peak near the frequency that belongs to the distance between its points. Such
-# sets are called blue noise. (The lower curves tell whether directions differ; here they do not.)
+# A spectrum shows evenness at every scale. Low frequencies belong to large distances, and high
+# frequencies to small ones. The curve gives the power at each frequency. Where the power is low,
+# the set has neither clumps nor gaps of that size. Independent points have a power of about 1 at
+# all frequencies, and chance moves their curve within the grey band. `poisson-disk` has little
+# power at low frequencies. Its peak belongs to the distance between neighbouring points. Such sets
+# are called blue noise. The lower curves show whether the power depends on the direction. Here it
+# does not.
 # %%
 spectra = {name: stipple.analyze("periodogram", sets[name]) for name in ("random", "poisson-disk")}
 for name, spectrum in spectra.items():
@@ -78,36 +87,41 @@ stipple.plot(spectra)
 # %% [markdown]
 # ## Warp
 #
-# Few problems live in a square. A warp moves points from the unit square onto another domain, here
-# a disk, and takes parts of equal area to parts of equal area. A grid shows best what happens: by
-# default, its columns become circles and its rows become rays.
+# Few problems have a square as their domain. A warp moves points from the unit square onto another
+# domain. The warp `disk` maps parts of equal area to parts of equal area, so an even set stays
+# even. A grid shows best how a warp deforms the square: by default, its columns become circles and
+# its rows become rays.
 # %%
 grid = stipple.generate("grid", 100)
 stipple.plot(stipple.warp(grid, "disk"), width=400)
 
 # %% [markdown]
-# The concentric method turns squares around the centre into circles. Both methods cover the disk
-# evenly; this one keeps neighbours closer together.
+# The concentric method maps squares around the centre to circles. Both methods cover the disk
+# evenly, but the concentric method keeps neighbours closer together.
 # %%
 stipple.plot(stipple.warp(grid, "disk", method="concentric"), width=400)
 
 # %% [markdown]
-# Points can also be warped while they are generated. With `return_meta` they carry a dictionary
-# that says how they were made; from it, later calls know that the points lie on a disk.
+# `generate` can also warp the points. With `return_meta`, the array gets a dictionary `meta` that
+# says how the points were made. From it, later calls know that the points lie on a disk. `save`
+# writes a picture to a file.
 # %%
 disk = stipple.generate("sobol", 256, scramble="owen", warp="disk", return_meta=True)
 print(f"domain: {disk.meta['domain']}, warps: {disk.meta['warps']}, seed: {disk.meta['seed']}")
+stipple.plot(disk, width=400).save("disk.svg")
 stipple.plot(disk, width=400)
 
 # %% [markdown]
 # ## Test the warp
 #
-# A common mistake is to take x itself as the distance from the centre, where its square root is
-# due: half of the points are then on a quarter of the area. stipple has this wrong warp, too, as
-# the method `naive`. The chi-square test counts the points in cells, and compares with the counts
-# that the areas call for. Its verdict is *uniform* if the counts vary as much as those of random
-# points do, *non-uniform* if they vary too much, and *stratified* if they vary less: the set is
-# then more even than chance would make it.
+# A common mistake is to use x itself as the distance from the centre, instead of the square root
+# of x. Half of the points then lie within half the radius, which is only a quarter of the area.
+# stipple contains this wrong warp for teaching, as the method `naive`.
+#
+# The chi-square test finds such a mistake. It counts the points in cells, and compares each count
+# with the expected one, which is proportional to the area of the cell. The verdict is *uniform* if
+# the counts vary as much as those of random points. It is *non-uniform* if they vary more, and
+# *stratified* if they vary less. A stratified set is more even than random points would be.
 # %%
 right = stipple.warp(sets["random"], "disk")
 wrong = stipple.warp(sets["random"], "disk", method="naive")
@@ -118,10 +132,11 @@ for name, points in {"right": right, "wrong": wrong, "sobol": disk}.items():
 # %% [markdown]
 # ## Integrate, with an error bar
 #
-# How far are the points of the disk from one point on its rim, on average? That is an integral
-# over the disk, divided by the area, pi. A single set would give an estimate, but no idea of its
-# error. `integrate` takes 16 independent sets, and works out a standard error from the scatter of
-# their estimates. The function gets all points of a set at once, as an array.
+# What is the average distance of the points of the disk from one point on its rim? It is the
+# integral of this distance over the disk, divided by the area, which is pi. `integrate` estimates
+# the integral, not the average. It makes 16 independent sets of 256 points, because the error of a
+# single set would be unknown. The spread of the 16 estimates gives the standard error. Your
+# function gets all points of a set at once, as an array.
 # %%
 def distance(points):
     return np.hypot(points[:, 0] - 1, points[:, 1])
@@ -132,10 +147,11 @@ for name in ("random", "sobol:scramble=owen"):
     integral = stipple.integrate(distance, name, 256, 2, warp="disk")
     errors[name] = integral.standard_error
     print(f"{name:20} {integral.estimate:.5f} +- {integral.standard_error:.5f}   (exact: {32 / 9:.5f})")
+print(f"average distance: {integral.estimate / np.pi:.4f}")
 
 # %% [markdown]
-# The error of random points falls with the square root of their number. How many times as many
-# would have to be taken to be as precise as the Sobol' points?
+# The error of n random points is proportional to 1 / sqrt(n). How many times as many random points
+# would you need to match the Sobol' points?
 # %%
 gain = errors["random"] / errors["sobol:scramble=owen"]
 print(f"{gain:.0f} times more precise; random needs about {round(gain**2, -2):.0f} times as many points.")
@@ -143,9 +159,9 @@ print(f"{gain:.0f} times more precise; random needs about {round(gain**2, -2):.0
 # %% [markdown]
 # ## Compare on one page, and keep the points
 #
-# `report` writes all measures with pictures to one HTML page: read the table at the top first. A
-# file with its meta data says how its points were made, so `stipple reproduce disk.csv` can make
-# them again in a shell, and so can you.
+# `report` writes all measures with pictures to one HTML page. Read the table at the top first.
+# `write` with `meta=True` writes the dictionary of the points into the file as well. In a shell,
+# `stipple reproduce disk.csv` then makes the same points again. The last lines do so in Python.
 # %%
 stipple.report("report.html", {name: sets[name] for name in ("random", "sobol:scramble=owen")})
 stipple.write("disk.csv", disk, meta=True)
