@@ -204,7 +204,7 @@ py::list study(const std::vector<std::string>& generators,
                const std::vector<std::string>& analyzers, const std::vector<std::string>& warps,
                const std::vector<std::uint64_t>& counts,
                const std::vector<std::uint64_t>& dimensions, std::uint64_t first_seed,
-               std::uint64_t seeds, const How& how) {
+               std::uint64_t seeds, const std::vector<std::string>& keys, const How& how) {
     const auto values = released(how, [&](const RunContext& run) {
         return stipple::study({.generators = generators,
                                .analyzers = analyzers,
@@ -212,7 +212,8 @@ py::list study(const std::vector<std::string>& generators,
                                .counts = counts,
                                .dimensions = dimensions,
                                .first_seed = first_seed,
-                               .seeds = seeds},
+                               .seeds = seeds,
+                               .keys = keys},
                               run);
     });
     py::list rows;
@@ -248,7 +249,7 @@ void report(const std::string& path, const std::vector<std::pair<std::string, Gi
 }
 
 plot::Drawing picture(const std::vector<std::pair<std::string, Given>>& given, double width,
-                      double height, const How& how) {
+                      double height, const std::optional<std::string>& title, const How& how) {
     std::vector<PointSet> sets;
     for (const auto& [name, set] : given) sets.push_back(set_of(set));
     plot::PointsPicture picture;
@@ -257,18 +258,20 @@ plot::Drawing picture(const std::vector<std::pair<std::string, Given>>& given, d
         picture.names.push_back(given[i].first);
     }
     return released(how, [&](const RunContext& run) {
-        return plot::draw_points(picture, {.width = width, .height = height}, run);
+        const plot::PictureStyle style{.width = width, .height = height, .title = title};
+        return plot::draw_points(picture, style, run);
     });
 }
 
 plot::Drawing report_picture(std::vector<std::pair<std::string, Measurement>> named,
-                             const std::string& key, double width, double height) {
+                             const std::string& key, double width, double height,
+                             const std::optional<std::string>& title) {
     std::vector<Measurement> reports;
     for (auto& [name, found] : named) {
         found.source = name;
         reports.push_back(std::move(found));
     }
-    const plot::PictureStyle style{.width = width, .height = height};
+    const plot::PictureStyle style{.width = width, .height = height, .title = title};
     return plot::draw_chart(plot::chart_of(reports, key), style);
 }
 

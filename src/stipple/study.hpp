@@ -22,7 +22,8 @@ struct Study {
     std::vector<std::uint64_t> counts = {1024};
     std::vector<std::uint64_t> dimensions = {2};
     std::uint64_t first_seed = 1;
-    std::uint64_t seeds = 1;  ///< sets per generator, count and dimension
+    std::uint64_t seeds = 1;             ///< sets per generator, count and dimension
+    std::vector<std::string> keys = {};  ///< results to keep, such as "value"; empty: all numbers
 };
 
 /// One number from one analyzer on one set.

@@ -27,6 +27,7 @@ std::vector<StudyValue> study(const Study& wanted, const RunContext& run) {
                        .seeds = wanted.seeds,
                        .measures = wanted.analyzers,
                        .warps = wanted.warps,
+                       .keys = wanted.keys,
                        .seconds = false});
     const UnitRunner runner(sweep, run);
     runner.require_options(run);

@@ -240,6 +240,25 @@ def test_errors_speak_of_arguments():
         stipple.generate("halton", base={})
 
 
+def test_unknown_arguments_are_refused(tmp_path):
+    x = stipple.generate("halton", 10)
+    path = tmp_path / "a.csv"
+    for call in (
+        lambda: stipple.plot(x, nonsense=1),
+        lambda: stipple.report(path, x, nonsense=3),
+        lambda: stipple.study("random", "moments", nonsense=3),
+        lambda: stipple.write(path, x, nonsense=3),
+        lambda: stipple.read(path, nonsense=3),
+    ):
+        with pytest.raises(stipple.Error, match="no argument 'nonsense' .known arguments: ") as caught:
+            call()
+        assert caught.value.kind == "usage" and not path.exists()
+    with pytest.raises(stipple.Error, match="did you mean 'seeds'"):
+        stipple.study("random", "moments", sedes=3)
+    with pytest.raises(stipple.Error, match="did you mean 'max_memory'"):
+        stipple.plot(x, max_memroy=3)
+
+
 def test_notes_are_warnings():
     with pytest.warns(stipple.Note, match="does not use the seed"):
         stipple.generate("hammersley", 8, sets=2)
@@ -302,6 +321,24 @@ def test_studies_are_tables(run):
     mean = [m for m in study.means() if m.key == "value"][0]
     assert mean.sets == 3 and mean.low <= mean.mean <= mean.high
     assert "<table>" in study._repr_html_()
+    assert [row for row in stipple.study(["random", "sobol:scramble=owen"], "star-discrepancy",
+                                         n=[16, 64], seeds=3, keys="value")] == rows
+    with pytest.raises(stipple.Error, match="^keys: no measure .* 'vlue' .*did you mean 'value'"):
+        stipple.study("random", "star-discrepancy", keys=["vlue"])
+
+
+def test_pictures_have_the_given_title_and_labels():
+    x = stipple.generate("halton", 50)
+    assert ">halton.csv<" not in stipple.plot(x).svg
+    assert ">my title<" in stipple.plot(x, title="my title").svg
+    assert "50 points" not in stipple.plot(x, title="").svg
+    both = {"a": x, "b": x}
+    named = stipple.plot(both, labels=["first", "second"]).svg
+    assert ">first<" in named and ">second<" in named and ">a<" not in named
+    with pytest.raises(stipple.Error, match="labels: 1 names for 2 sets"):
+        stipple.plot(both, labels="first")
+    spectrum = stipple.analyze("periodogram", x)
+    assert ">my spectrum<" in stipple.plot({"a": spectrum, "b": spectrum}, title="my spectrum").svg
 
 
 # Any two doubles as coordinates give a picture without NaN or infinity, or an error.
@@ -365,6 +402,12 @@ def test_units_are_listed_and_described():
     assert "scramble" in text and "Source" in text
     with pytest.raises(stipple.Error):
         stipple.list("no such kind")
+
+
+def test_type_stubs_are_python():
+    path = os.path.join(os.path.dirname(stipple.__file__), "__init__.pyi")
+    with open(path, encoding="utf-8") as file:
+        compile(file.read(), path, "exec")
 
 
 def test_progress_is_shown(capsys):

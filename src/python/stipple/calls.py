@@ -2,6 +2,8 @@
 """The functions of the package."""
 
 import collections
+import difflib
+import inspect
 import json
 import os
 import sys
@@ -39,6 +41,17 @@ def _take_how(options):
     """Removes the arguments common to all calls from the options and returns them."""
     return _how(*(options.pop(name, default) for name, default in
                   (("threads", 0), ("max_memory", 0), ("progress", None))))
+
+
+def _only_how(call, options):
+    """As _take_how(), for a call without units, which has no other options: refuses them."""
+    how = _take_how(options)
+    for name in options:
+        known = [*inspect.signature(call).parameters][:-1] + ["threads", "max_memory", "progress"]
+        near = difflib.get_close_matches(name, known, n=1)
+        hint = f"did you mean '{near[0]}'?" if near else f"known arguments: {', '.join(known)}"
+        raise Error(f"{call.__name__}() has no argument '{name}'", hint=hint)
+    return how
 
 
 def _parameters_spec(parameters):
@@ -245,7 +258,7 @@ def _integral_of(function, rows, domain, options):
     if exact is not None:
         found |= {"exact": float(exact), "error": estimate - float(exact)}
     name = getattr(function, "__name__", "integrand").strip("<>")
-    text = "".join(f"{name}.{key}  {value!r}\n" for key, value in found.items())
+    text = "".join(f"{name}.{key}  {value:.6g}\n" for key, value in found.items())
     return Report({name: found}, text)
 
 
@@ -286,7 +299,7 @@ def integrate(function, generator, n, d, *, replications=16, seed=1, confidence=
 def read(path, *, format="", d=0, single=False, **options):
     """Points of a file: Points (n, d) with the file's meta; a list of them if the file has several
     sets. d and single (float32) are required for raw binary files."""
-    sets = _stipple.read(os.fspath(path), format, d, single, _take_how(options))
+    sets = _stipple.read(os.fspath(path), format, d, single, _only_how(read, options))
     points = [with_meta(rows, meta) for rows, meta in sets]
     return points[0] if len(points) == 1 else points
 
@@ -299,11 +312,12 @@ def write(path, x, *, domain=None, format="", header=True, meta=False, single=Fa
           precision=None, **options):
     """Writes points (n, d), or several sets, to a file in the format of its extension: csv, txt,
     json, jsonl, npy, bin, utk, psa, ply, svg; .gz and .zst compress it."""
+    how = _only_how(write, options)
     several = x if isinstance(x, list) and np.ndim(x[0]) == 2 else None
     if several is None:
         several = [x] if np.ndim(x) != 3 else list(x)
     _stipple.write(os.fspath(path), [_given(one, domain) for one in several], format, header, meta,
-                   single, precision, _take_how(options))
+                   single, precision, how)
 
 
 StudyValue = collections.namedtuple(
@@ -329,14 +343,16 @@ class Study(list):
         return f"<table><tr>{head}</tr>{body}</table>"
 
 
-def study(generators, analyzers, *, n=(1024,), d=(2,), seeds=1, seed=1, warp=None, **options):
+def study(generators, analyzers, *, n=(1024,), d=(2,), seeds=1, seed=1, warp=None, keys=(),
+          **options):
     """Measures every generator at every count and dimension, with several seeds, by every analyzer.
     Returns a Study: a list of StudyValue, ordered by generator, dimension, count, seed and
-    analyzer."""
+    analyzer. keys are the results to keep, as for `stipple study --keys`: "value", "mean[0]"."""
+    how = _only_how(study, options)
     counts = [n] if np.isscalar(n) else [int(k) for k in n]
     dimensions = [d] if np.isscalar(d) else [int(k) for k in d]
     rows = _stipple.study(listed(generators), listed(analyzers), listed(warp), counts, dimensions,
-                          seed, seeds, _take_how(options))
+                          seed, seeds, [keys] if isinstance(keys, str) else list(keys), how)
     return Study(StudyValue(*row) for row in rows)
 
 
@@ -348,25 +364,41 @@ def _named(x):
 def report(path, x, **options):
     """Writes a self-contained HTML page that compares up to 12 sets of one dimension: points, or a
     dictionary of points by name. Returns a Page, which notebooks display."""
-    _stipple.report(os.fspath(path), _named(x), _take_how(options))
+    _stipple.report(os.fspath(path), _named(x), _only_how(report, options))
     return Page(os.fspath(path))
 
 
-def plot(x, ax=None, *, key="", width=0, height=0, **options):
+def _relabelled(x, labels):
+    """The sets or reports with these names."""
+    labels = [labels] if isinstance(labels, str) else list(labels)
+    values = list(x.values()) if isinstance(x, dict) else [x]
+    if len(labels) != len(values) or len(set(labels)) != len(labels):
+        raise Error(f"labels: {len(labels)} names for {len(values)} sets; expected one for each, "
+                    "all different")
+    return dict(zip(labels, values))
+
+
+def plot(x, ax=None, *, key="", width=0, height=0, title=None, labels=None, **options):
     """A picture of points, or of a dictionary of points by name. 1-D points give a histogram; 2-D
     and 3-D points are shown with the outline of their domain; others as pairs of coordinates.
     Reports of one analyzer are shown by their curves; if they have none, by one number (chosen by
     key) against the number of points. Notebooks display the picture; save(path) writes it as .svg,
-    .pdf or .png. With matplotlib axes as ax, draws points (n, 2) there and returns ax."""
-    how = _take_how(options)
+    .pdf or .png. With matplotlib axes as ax, draws points (n, 2) there and returns ax.
+
+    title   replaces the title; "" leaves out title and subtitle
+    labels  names of the sets in the legend; default: the keys of the dictionary
+    """
+    how = _only_how(plot, options)
+    if labels is not None:
+        x = _relabelled(x, labels)
     reports = x if isinstance(x, dict) else {"report": x}
     if ax is None and reports and all(isinstance(one, Report) for one in reports.values()):
         found = [(name, one._found) for name, one in reports.items()]
         if any(one is None for _, one in found):
             raise Error("a part of a report, or an integral of a function, has no picture", "input")
-        return Picture(_stipple.report_picture(found, key, width, height))
+        return Picture(_stipple.report_picture(found, key, width, height, title))
     if ax is None:
-        return Picture(_stipple.picture(_named(x), width, height, how))
+        return Picture(_stipple.picture(_named(x), width, height, title, how))
     for name, one in (x if isinstance(x, dict) else {None: x}).items():
         rows = as_rows(one)
         if rows.shape[1] != 2:
@@ -374,6 +406,8 @@ def plot(x, ax=None, *, key="", width=0, height=0, **options):
                         "input")
         ax.scatter(rows[:, 0], rows[:, 1], s=max(1, 4000 / len(rows)), label=name)
     ax.set_aspect("equal")
+    if title is not None:
+        ax.set_title(title)
     if isinstance(x, dict):
         ax.legend()
     return ax
