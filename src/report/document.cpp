@@ -2,9 +2,9 @@
 #include "report/document.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -44,9 +44,18 @@ Json measurement_json(const Measurement& m) {
 
 constexpr std::size_t most_shown = 9;  ///< longest list that is shown on one line
 
+/// Six significant digits; integers below 1e15, and the integral parts of numbers below 1e9, in full.
+std::string readable(double x) {
+    if (x == 0) return "0";  // also for -0
+    const double size = std::abs(x);
+    const bool in_full = size < (x == std::floor(x) ? 1e15 : 1e9) && size >= 999'999.5;
+    return fmt::format(fmt::runtime(in_full ? "{:.0f}" : "{:.6g}"), x);
+}
+
 std::string shortened(const Report::Curve& curve) {
     const std::size_t some = std::min(curve.size(), most_shown);
-    std::string text = fmt::format("{:.6g}", fmt::join(std::span(curve).first(some), " "));
+    std::string text;
+    for (std::size_t i = 0; i < some; ++i) text += (i > 0 ? " " : "") + readable(curve[i]);
     if (curve.size() > some) text += fmt::format(" ... ({} values)", curve.size());
     return text;
 }
@@ -92,7 +101,7 @@ std::string tables_of(const Report& report) {
         for (std::size_t i = 0; i < lists[0].size(); ++i) {
             text += "\n ";
             for (std::size_t k = 0; k < keys.size(); ++k)
-                text += fmt::format(" {:>{}.6g}", lists[k][i],
+                text += fmt::format(" {:>{}}", readable(lists[k][i]),
                                     std::max<std::size_t>(keys[k].size(), 12));
         }
         text += "\n";
@@ -104,8 +113,11 @@ std::string tables_of(const Report& report) {
 std::string head_of(const Measurement& m) {
     const std::string most = m.largest_count > 0 ? fmt::format(" to {}", m.largest_count) : "";
     const std::string of = m.columns.empty() ? "" : ": " + join(m.columns, ", ");
+    constexpr std::size_t readable_size = 60;  // named parameters have a long text in JSON
+    const std::string domain = m.domain.substr(
+        0, m.domain.size() > readable_size ? m.domain.find(':') : std::string::npos);
     return fmt::format("{} of {} ({}{} points, dimension {}{}, {})\n", m.analyzer, source_of(m),
-                       m.count, most, m.dimension, of, m.domain);
+                       m.count, most, m.dimension, of, domain);
 }
 
 std::string results_of(const Measurement& m, const TextStyle& style = {}) {
@@ -211,7 +223,7 @@ std::string text_of(const Report::Item& item) {
     struct {
         std::string operator()(bool b) const { return b ? "yes" : "no"; }
         std::string operator()(std::int64_t i) const { return std::to_string(i); }
-        std::string operator()(double x) const { return format_number(x); }
+        std::string operator()(double x) const { return readable(x); }
         std::string operator()(const std::string& s) const { return printable(s); }
         std::string operator()(const Report::Curve& curve) const { return shortened(curve); }
         std::string operator()(const Report::Integers& list) const {

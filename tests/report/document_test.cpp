@@ -46,6 +46,35 @@ TEST(Document, JsonHasTypesAndNoGridsOrInfinities) {
     EXPECT_EQ(nlohmann::json::parse(to_json(two)).size(), 2U);
 }
 
+// Text is read by people, JSON and CSV by programs.
+TEST(Document, OnlyTextIsRounded) {
+    const std::vector<std::pair<double, const char*>> cases = {{1.0 / 3, "0.333333"},
+                                                               {-0.0, "0"},
+                                                               {0.00012345678, "0.000123457"},
+                                                               {12345.6789, "12345.7"},
+                                                               {999999.7, "1000000"},
+                                                               {123456789.25, "123456789"},
+                                                               {999999999999999, "999999999999999"},
+                                                               {1e15, "1e+15"},
+                                                               {1.5e-5, "1.5e-05"},
+                                                               {2.5e9 + 0.5, "2.5e+09"},
+                                                               {1048576, "1048576"}};
+    for (const auto& [x, text] : cases) {
+        EXPECT_EQ(text_of(x), text);
+        EXPECT_EQ(text_of(Report::Curve{x, x}), std::string(text) + " " + text);
+    }
+    Measurement m = sample();
+    m.results.add("value", 1.0 / 3);
+    EXPECT_THAT(to_json({&m, 1}), ::testing::HasSubstr("0.3333333333333333"));
+    EXPECT_THAT(to_csv({&m, 1}), ::testing::HasSubstr("0.3333333333333333"));
+}
+
+TEST(Document, TextShortensALongDomain) {
+    Measurement m = sample();
+    m.domain = "parameters:json=[" + std::string(100, 'x') + "]";
+    EXPECT_THAT(to_text({&m, 1}), ::testing::HasSubstr("dimension 2, parameters)\n"));
+}
+
 TEST(Document, CsvIsATidyTableOfItsCurves) {
     Measurement m = sample();
     m.dimension = 1;
