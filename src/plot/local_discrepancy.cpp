@@ -30,7 +30,8 @@ std::size_t first_cell_above(double x, std::size_t cells) {
 }
 
 std::optional<AnchoredBox> box_of(const discrepancy::WorstBox& worst, double sign) {
-    if (!(worst.value() > 0)) return std::nullopt;
+    constexpr double rounding = 1e-12;  // error of a value that is 0
+    if (!(worst.value() > rounding)) return std::nullopt;
     const auto corner = worst.corner(&discrepancy::Interval::upper);
     return AnchoredBox{.corner = {corner[0], corner[1]}, .value = sign * worst.value()};
 }

@@ -157,6 +157,13 @@ TEST(LocalDiscrepancy, MayBeOfOneSignAlone) {
     EXPECT_EQ(high.open->value, -1);
     EXPECT_EQ(drawn(points_of({{1, 1}})).title, "t");
     EXPECT_THAT(svg_bytes(drawn(points_of({{0, 0}})), 1), HasSubstr("too few: in no box"));
+    // A box with 1/49 of the points has an area of 1/49 that is rounded.
+    PointSet cells(49, 2);
+    for (std::size_t i = 0; i < 49; ++i) {
+        cells[i][0] = static_cast<double>(i % 7) / 7;
+        cells[i][1] = static_cast<double>(i / 7) / 7;
+    }
+    EXPECT_FALSE(worst_boxes_of(cells, {}).open);
 }
 
 TEST(LocalDiscrepancy, ADrawingHasTheImageThePointsAndBothBoxes) {

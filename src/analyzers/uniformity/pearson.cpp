@@ -235,7 +235,7 @@ Tails count_tails(double statistic, const Fit& fit) {
     return tails;
 }
 
-double sidak(double p, double tests) { return p < 1 ? -exp_minus_1(tests * log_1p(-p)) : 1; }
+double sidak(double p, double tests) { return p < 1 ? 0 - exp_minus_1(tests * log_1p(-p)) : 1; }
 
 double p_value_of(const Tails& plain, const Tails* second) {
     const double p = plain.two_sided();

@@ -724,6 +724,9 @@ TEST(ChiSquare, SetsAreCombinedAsAsked) {
         return mean;
     };
     EXPECT_NEAR(combined("sidak").number("p_upper"), 1 - std::pow(0.999, 3), 1e-15);
+    sets[0].add("p_lower", 0.0);
+    EXPECT_FALSE(std::signbit(combined("sidak").number("p_lower")));  // not -0
+    sets[0].add("p_lower", 1 - upper[0]);
     EXPECT_NEAR(combined("sidak").number("p_lower"), 1 - std::pow(0.9, 3), 1e-15);
     EXPECT_NEAR(combined("sidak").number("p_value"), 2 * (1 - std::pow(0.999, 3)), 1e-15);
     // P(chi2_6 > x) = exp(-x/2) (1 + x/2 + x^2/8), x/2 = -ln(0.1 * 0.001 * 0.9)
