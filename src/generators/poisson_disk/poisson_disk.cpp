@@ -87,7 +87,7 @@ constexpr Param<Choice> order{
     .name = "order",
     .fallback = "random",
     .choices = "random|progressive",
-    .help = "progressive: for every n, the first n points are well spread"};
+    .help = "Order of the points; progressive: for every n, the first n points are well spread"};
 
 /// Whether radii vary, or some places are without points.
 bool is_varied(const Values& options) {
