@@ -17,7 +17,7 @@ void refuse(const Outside& outside, std::uint64_t total, const Domain& domain, s
 std::string outside_hint(const Domain& domain) {
     std::string hint = "--domain names the domain of the points";
     if (domain.spec() == "unit-cube")
-        hint += "; --rescale or --bounds lo..hi maps them into the cube";
+        hint += ", or --meta on the first command; --rescale or --bounds lo..hi maps to the cube";
     if (domain.cube_dimension() < domain.dimension())
         hint += "; float32 or few digits move points off a surface: write them as float64";
     return hint;

@@ -77,8 +77,8 @@ void keep_rows(std::vector<double>& rows, std::size_t width, std::span<const std
              format_coordinates(spec.coordinates));
     std::string hint;
     if (takes < width)
-        hint = fmt::format("name the coordinates: {}@{}", spec.name,
-                           format_coordinates(all_coordinates(takes)));
+        hint = fmt::format("name the coordinates: {}@{}, or make points with -d {}", spec.name,
+                           format_coordinates(all_coordinates(takes)), takes);
     fail_with_hint(ErrorKind::usage, hint, "{}; the points have {}", wants, width);
 }
 

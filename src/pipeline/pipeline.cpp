@@ -87,7 +87,7 @@ void require_in_cube(const PointSet& points, std::span<const std::size_t> coordi
 void require_unit_cube(const PointSet& points) {
     const std::size_t d = points.dimension();
     require_in_cube(points, named_or_all({}, d), fmt::format("the unit cube [0, 1]^{}", d),
-                    way_to_cube(points));
+                    "the measure is defined for the unit cube; " + way_to_cube(points));
 }
 
 Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& options,

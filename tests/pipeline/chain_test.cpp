@@ -84,7 +84,7 @@ TEST(WarpChain, DroppedPointsTakeTheirWholeRow) {
 TEST(WarpChain, RefusesWhatDoesNotFit) {
     EXPECT_EQ(error_of([] { chain({"disk"}, 3); }),
               "usage: warp disk takes 2 coordinates; the points have 3 | name the coordinates: "
-              "disk@1,2");
+              "disk@1,2, or make points with -d 2");
     EXPECT_EQ(error_of([] { chain({"disk"}, 1); }),
               "usage: warp disk takes 2 coordinates; the points have 1");
     EXPECT_EQ(error_of([] { chain({"disk@1,2,3"}, 3); }),
