@@ -69,7 +69,7 @@ def draw_points(axes, points, frame):
 
 def draw_row(panels, name):
     points = stipple.generate(name, COUNT)
-    disk = stipple.warp(points, "disk", method="concentric")
+    disk = stipple.warp(points, "disk")
     turn = np.linspace(0, 2 * np.pi, 361)
     draw_points(panels[0], points, BORDER)
     draw_points(panels[1], disk, (np.cos(turn), np.sin(turn)))
