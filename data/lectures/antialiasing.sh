@@ -1,12 +1,13 @@
 #!/bin/sh
-# Antialiasing: the share of a pixel that lies below an edge, y < 0.3 + 0.4 x, is 1/2. Of
-# n^2 = 16 samples, random ones see it with an RMS error of sqrt(1/2 1/2/16) = 0.125. Jittered
-# ones, one in each of 4 x 4 cells, err only in the four cells that the edge cuts. It covers
-# 0.4, 0.8, 0.2 and 0.6 of these, so that the error is sqrt(0.24 + 0.16 + 0.16 + 0.24)/16 = 0.0559.
+# Antialiasing: half of a pixel lies below an edge, y < 0.3 + 0.4 x. With 16 random samples, the
+# estimate of this share has an RMS error of sqrt(1/2 1/2/16) = 0.125. With 16 jittered samples,
+# one in each of 4 x 4 cells, the error comes only from the four cells that the edge cuts. The
+# parts of these cells below the edge are 0.4, 0.8, 0.2 and 0.6, so the RMS error is
+# sqrt(0.24 + 0.16 + 0.16 + 0.24)/16 = 0.0559.
 #
-# Tolerance: for 1000 pixels the RMS error itself has a standard error of 2.2 % (normal errors)
-# or less; the bounds are the value -+ 11 %, five of these. Five of those of the mean of random
-# samples, 0.125/sqrt(1000), are 0.02.
+# Tolerance: for 1000 pixels the RMS error has a standard error of 2.2 % (for normal errors) or
+# less. Its bounds are the value -+ 11 %, which is five standard errors. The mean share of
+# random samples has the standard error 0.125/sqrt(1000); five of these are 0.02.
 set -e
 
 # errors KIND SLIDE LOW HIGH
@@ -28,8 +29,8 @@ errors() {
 errors random 0.125 0.111 0.139
 errors jittered 0.0559 0.0497 0.0621
 
-# One pixel with random samples and, to its right, one with jittered samples. Colours separate the
-# samples below the edge from those above; dots draw the edge and the pixel.
+# One pixel with random samples and, to its right, one with jittered samples. Colours separate
+# the samples below the edge from those above; dots draw the edge and the pixel.
 stipple generate random -n 16 --no-header -o samples.csv
 stipple generate jittered -n 16 --bounds 1.2..2.2,0..1 --no-header >>samples.csv
 LC_ALL=C awk -F , '{

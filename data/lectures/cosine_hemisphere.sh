@@ -1,12 +1,13 @@
 #!/bin/sh
-# Directions of a hemisphere with density cos theta/pi: E cos theta = 2/3. Uniform ones, with
-# density 1/(2 pi), have E cos theta = 1/2.
+# Directions of a hemisphere with the density cos theta/pi have E cos theta = 2/3. Uniform
+# directions, with the density 1/(2 pi), have E cos theta = 1/2.
 #
-# The mean of f over the points is the integral of f times their density; f is z = cos theta.
-# Tolerance: 4096 Halton points are off by 1.3e-4; 0.001 leaves room.
+# The mean of f over the points estimates the integral of f times their density. Here f is
+# z = cos theta. Tolerance: the error of 4096 Halton points is 1.3e-4; 0.001 is allowed.
 set -e
 
-# say SENTENCE SLIDE: the sentence, the estimate in report.txt, and the number on the slide.
+# say SENTENCE SLIDE: prints the sentence, the estimate in report.txt, and the number on the
+# slide.
 say() {
     LC_ALL=C awk -v text="$1" -v slide="$2" '
         $1 == "expression.estimate" { printf "%s %.4f (slide: %s", text, $2, slide }
@@ -25,7 +26,7 @@ mean_is() {
 mean_is 2/3 cosine 'z/pi' 'The mean cos theta of cosine-weighted directions is'
 mean_is 1/2 uniform '1/(2*pi)' 'The mean cos theta of uniform directions is'
 
-# Seen from above, cosine-weighted directions fill the disk evenly.
+# The picture shows the directions from above. Cosine-weighted directions fill the disk evenly.
 for method in cosine uniform; do
     stipple generate halton -n 300 --start 1 -w hemisphere:method=$method -o $method.json
 done

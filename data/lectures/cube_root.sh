@@ -1,14 +1,16 @@
 #!/bin/sh
-# The density p(x) = 3/2 x^2 on [-1, 1] by inversion: F(x) = (x^3 + 1)/2, so x = cbrt(2 xi - 1).
-# It takes cbrt, because pow(-1, 1/3) is not a number. E x^2 = 3/5, and P(|x| < 1/2) = 1/8.
+# Inversion of the density p(x) = 3/2 x^2 on [-1, 1]: F(x) = (x^3 + 1)/2, so x = cbrt(2 xi - 1).
+# Use a real cube root such as cbrt: pow(-1, 1.0/3) gives NaN in most languages. E x^2 = 3/5,
+# and P(|x| < 1/2) = 1/8.
 #
-# The mean of f over the points is the integral of f p. Tolerance: 4096 points of the van der
-# Corput sequence are one in each of 4096 strata, so that the share of an interval is off by at
-# most two of them, 0.0005; twice that.
+# The mean of f over the points estimates the integral of f p. Tolerance: the first 4096 points
+# of the van der Corput sequence lie in 4096 strata, one in each. The count in an interval is
+# therefore wrong by at most two points, and the share by 0.0005. The bounds are twice that.
 set -e
 stipple generate van-der-corput -n 4096 -w 'power:exponent=2,range=[-1,1]' -o power.json
 
-# say SENTENCE SLIDE: the sentence, the estimate in report.txt, and the number on the slide.
+# say SENTENCE SLIDE: prints the sentence, the estimate in report.txt, and the number on the
+# slide.
 say() {
     LC_ALL=C awk -v text="$1" -v slide="$2" '
         $1 == "expression.estimate" { printf "%s %.4f (slide: %s", text, $2, slide }

@@ -1,11 +1,13 @@
 #!/bin/sh
-# Two dice. Joint: every pair has probability 1/36. Conditional: given what the second die shows,
-# every face of the first has 1/6; to condition is to keep the rows with that second face. (Say
-# which of the dice is given. The answer is the same for both, because dice are alike.)
+# Two dice. The joint probability of every pair is 1/36. Given the face of the second die, the
+# conditional probability of every face of the first die is 1/6. It is estimated from the throws
+# with this second face. (Always say which die is given. Here both ways give the same number,
+# because the dice are alike.)
 set -e
 die='discrete:probabilities=[1,1,1,1,1,1],normalize=true,values=[1,2,3,4,5,6]'
 
-# say SENTENCE SLIDE: the sentence, the estimate in report.txt, and the number on the slide.
+# say SENTENCE SLIDE: prints the sentence, the estimate in report.txt, and the number on the
+# slide.
 say() {
     LC_ALL=C awk -v text="$1" -v slide="$2" '
         $1 == "expression.estimate" { printf "%s %.4f (slide: %s", text, $2, slide }
@@ -13,9 +15,9 @@ say() {
     ' report.txt
 }
 
-# joint and conditional SLIDE CONDITION SENTENCE: the mean of an indicator is the sum of indicator
-# times probability, SLIDE for each pair or face that meets the condition. Tolerance: five standard
-# errors with fixed seeds, sqrt(1/36 35/36/36000) = 0.00087 and sqrt(1/6 5/6/6000) = 0.0048.
+# joint and conditional SLIDE CONDITION SENTENCE: estimate the sum of the probabilities of all
+# pairs (1/36 each) or faces (1/6 each) that meet CONDITION. Tolerance: five standard errors,
+# with fixed seeds: sqrt(1/36 35/36/36000) = 0.00087 and sqrt(1/6 5/6/6000) = 0.0048.
 joint() {
     stipple analyze integration dice.csv -f text --expression "($2)/36" --exact "$1" \
         --check 'expression.error>-0.0044' --check 'expression.error<0.0044' >report.txt
@@ -35,8 +37,8 @@ conditional 1/6 'x == 3' 'Given a 5 on the second die, the share with a 3 on the
 grep '^3,' dice.csv | stipple convert - --from csv --column 2 -o given.csv
 conditional 1/6 'x == 5' 'Given a 3 on the first die, the share with a 5 on the second is'
 
-# 720 throws as dots, each at a random place in the square of its pair. Given the second die,
-# one row remains.
+# The picture shows 720 throws as dots, each at a random position in the square of its pair. If
+# the second die is given, only one row of squares counts.
 stipple generate random -n 720 --no-header | LC_ALL=C awk -F , '{
     x = 0.5 + 6*$1
     y = 0.5 + 6*$2

@@ -1,14 +1,16 @@
 #!/bin/sh
-# Points of the unit disk. r = sqrt(xi) is right: P(r < 1/2) = 1/4, the share of the area.
-# r = xi is naive: P(r < 1/2) = 1/2, as many points in a quarter of the area.
+# Points of the unit disk. The radius r = sqrt(xi) is right: P(r < 1/2) = 1/4, the share of the
+# area. The radius r = xi is naive: P(r < 1/2) = 1/2, so half of the points lie in a quarter of
+# the area.
 #
-# Given only the domain, integration takes the points for uniform: the mean of f is the integral of
-# f/pi. (With --meta it would know the method, and correct for its density.)
-# Tolerance: 4096 Halton points are off by 3e-4 and less, where points are dropped by 1.5e-3;
-# 0.003 is twice that.
+# Given only the domain, `analyze integration` assumes uniform points, with the density 1/pi.
+# Its estimate for f/pi is therefore the mean of f over the points. (With --meta it would know
+# the method and use the density of the method.) Tolerance: the errors of 4096 Halton points are
+# 3e-4 or less, and 1.5e-3 with rejection. The bound 0.003 is twice that.
 set -e
 
-# say SENTENCE SLIDE: the sentence, the estimate in report.txt, and the number on the slide.
+# say SENTENCE SLIDE: prints the sentence, the estimate in report.txt, and the number on the
+# slide.
 say() {
     LC_ALL=C awk -v text="$1" -v slide="$2" '
         $1 == "expression.estimate" { printf "%s %.4f (slide: %s)\n", text, $2, slide }' report.txt
@@ -24,12 +26,14 @@ half_radius() {
 }
 
 half_radius 1/4 polar 'With r = sqrt(xi), a quarter of the points lie within half the radius:'
-half_radius 1/4 concentric 'With the concentric map, a quarter lie within half the radius:'
-half_radius 1/4 rejection 'With rejection from a square, a quarter lie within half the radius:'
+half_radius 1/4 concentric \
+    'With the concentric map, a quarter of the points lie within half the radius:'
+half_radius 1/4 rejection \
+    'With rejection from a square, a quarter of the points lie within half the radius:'
 half_radius 1/2 naive 'With r = xi (naive), half of the points lie within half the radius:'
 
-# verdict METHOD SLIDE SENTENCE: a chi-square test with both tails. "stratified" is more even than
-# random points, "non-uniform" too uneven for uniform ones.
+# verdict METHOD SLIDE SENTENCE: a chi-square test with both tails. "stratified" means more even
+# than random points, "non-uniform" too uneven for uniform points.
 verdict() {
     stipple generate halton -n 4096 --start 1 -w "disk:method=$1" --meta |
         stipple analyze chi-square -f text --check "verdict==$2" >report.txt

@@ -1,14 +1,16 @@
 #!/bin/sh
-# Directions from uniform latitude and longitude crowd at the poles: E z^2 = E sin^2 = 1/2.
-# Uniform ones have uniform height z: E z^2 = 1/3.
+# Directions with uniform latitude and longitude crowd at the poles: E z^2 = 1/2, the mean of
+# sin^2 of the latitude. Uniform directions have a uniform height z: E z^2 = 1/3.
 #
-# Given only the domain, integration takes the points for uniform: the mean of f is the integral of
-# f/(4 pi). (With --meta it would know the method, and correct for its density.)
-# Tolerance: 4096 Halton points are off by less than 1e-6; a thousand times that still tells 1/2
-# from 1/3.
+# Given only the domain, `analyze integration` assumes uniform points, with the density
+# 1/(4 pi). Its estimate for f/(4 pi) is therefore the mean of f over the points. (With --meta it
+# would know the method and use the density of the method.) Tolerance: the error of 4096 Halton
+# points is less than 1e-6. The bound is a thousand times that, and still separates 1/2 from
+# 1/3.
 set -e
 
-# say SENTENCE SLIDE: the sentence, the estimate in report.txt, and the number on the slide.
+# say SENTENCE SLIDE: prints the sentence, the estimate in report.txt, and the number on the
+# slide.
 say() {
     LC_ALL=C awk -v text="$1" -v slide="$2" '
         $1 == "expression.estimate" { printf "%s %.4f (slide: %s)\n", text, $2, slide }' report.txt

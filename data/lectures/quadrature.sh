@@ -1,17 +1,19 @@
 #!/bin/sh
-# Regular, random and jittered points for the integral over [0, 1] of a smooth function, x^2, and
-# of a discontinuous one, 1 where x < 1/3; both integrals are 1/3. RMS errors of n points:
+# Regular, random and jittered points estimate two integrals over [0, 1]: that of the smooth
+# function x^2, and that of a function with a jump, 1 where x < 1/3 and 0 elsewhere. Both are
+# 1/3. The RMS errors of n points are:
 #
 #                x^2                   x < 1/3
 #     random     sqrt(4/45) n^-1/2     sqrt(2/9) n^-1/2
 #     jittered   1/3 n^-3/2            sqrt(2/9) n^-1
 #     regular    1/12 n^-2             1/3 n^-1          (n = 4^k)
 #
-# So random points do not converge faster than regular ones: in one dimension they are the worst.
+# So random points do not converge faster than regular ones. In one dimension they are the
+# slowest.
 set -e
 
-# regular N FUNCTION SLIDE: the points are (i + 1/2)/n, and the estimate is 1/3 minus the error of
-# the table, except for rounding.
+# regular N FUNCTION SLIDE: uses the points (i + 1/2)/n. Except for rounding, the estimate is
+# 1/3 minus the error in the table.
 regular() {
     stipple generate grid -n "$1" -d 1 |
         stipple analyze integration -f text --expression "$2" --exact "$3" \
@@ -26,9 +28,9 @@ regular 64 'x^2' 0.33331298828125
 regular 16 'x < 1/3' 0.3125
 regular 64 'x < 1/3' 0.328125
 
-# errors KIND N FUNCTION SLIDE LOW HIGH: the RMS error of 1000 sets is between LOW and HIGH.
-# It has a standard error of 2.2 % (normal errors) or less; the bounds are the slide's number
-# -+ 11 %, five of these.
+# errors KIND N FUNCTION SLIDE LOW HIGH: checks that the RMS error of 1000 sets lies between LOW
+# and HIGH. Its standard error is 2.2 % (for normal errors) or less. The bounds are the slide's
+# number -+ 11 %, which is five standard errors.
 errors() {
     stipple generate "$1" -n "$2" -d 1 -m 1000 -f npy |
         stipple analyze integration --average -f text --expression "$3" --exact 1/3 \
@@ -47,7 +49,7 @@ errors jittered 64 'x^2' 0.000651 0.0005794 0.0007227
 errors jittered 16 'x < 1/3' 0.0295 0.02622 0.03270
 errors jittered 64 'x < 1/3' 0.00737 0.006555 0.008176
 
-# The slopes of these errors over n, in a picture with logarithmic axes.
+# The picture shows these errors over n, with logarithmic axes.
 stipple study --generators 'random;jittered;grid' -n 4,16,64,256 -d 1 --seeds 200 \
     --analyze 'integration:expression=x^2,exact=1/3;integration:expression=[x < 1/3],exact=1/3' \
     -o - | stipple plot --key expression.error --labels random,jittered,regular \
