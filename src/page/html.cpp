@@ -191,7 +191,8 @@ std::string comparison_of(std::span<const Set> sets) {
     out += "</tbody></table></div>\n";
     if (sets.size() > 1)
         out +=
-            "<p class=\"note\">★ marks a set if no other one shown is better; ↓ lower is better, ↑ "
+            "<p class=\"note\">★ marks the set that is better than all others; ↓ lower is better, "
+            "↑ "
             "higher is better. “a to b” are certain bounds of a value that is not known exactly; "
             "“a "
             "± b” is the mean of several sets with its standard error, and means count as "
