@@ -41,7 +41,7 @@ constexpr std::size_t most_waiting = std::size_t{1} << 12;
 
 /// Adds another set's time, source and count to a mean.
 void add_to(Measurement& mean, const Measurement& m) {
-    mean.seconds += m.seconds;
+    mean.seconds = mean.seconds.value_or(0) + m.seconds.value_or(0);
     if (mean.source != m.source) mean.source += ", " + m.source;
     if (mean.columns != m.columns) mean.columns.clear();
     const std::uint64_t largest = std::max({mean.count, mean.largest_count, m.count});

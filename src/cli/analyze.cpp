@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -42,6 +43,35 @@ std::vector<std::string> result_keys(const Analyzer& analyzer) {
     return keys;
 }
 
+/// The results that some of `wanted` name, entirely or by a part between dots; value[0] selects one
+/// number of a list.
+Report picked(const Report& report, const std::vector<std::string>& wanted,
+              const std::string& group = {}) {
+    Report kept;
+    for (const auto& [name, value, unit] : report.entries()) {
+        if (const auto* inner = std::get_if<Report>(&value)) {
+            Report part = picked(*inner, wanted, group + name + ".");
+            if (!part.entries().empty()) kept.add(name, std::move(part));
+            continue;
+        }
+        for (const std::string& word : wanted) {
+            if (!names_result(group + name, word)) continue;
+            const auto list = list_at(report, name);
+            const auto open = word.find('[');
+            if (!list || open == std::string::npos) {
+                kept.add(name, value, unit);
+                continue;
+            }
+            const auto index = parse_unsigned(split(word.substr(open + 1), ']').front());
+            if (!index || *index >= list->size())
+                fail(ErrorKind::usage, "--keys: '{}' is not a key; {} has {} numbers, from [0]",
+                     word, group + name, list->size());
+            kept.add(name + word.substr(open), (*list)[*index], unit);
+        }
+    }
+    return kept;
+}
+
 /// Index of a set among `of` sets; nullopt if it is the only one.
 std::optional<std::size_t> number_of(std::size_t set, std::size_t of) {
     return of > 1 ? std::optional(set) : std::nullopt;
@@ -63,6 +93,11 @@ class AnalyzeCall {
             analyses_.push_back(std::make_unique<Analysis>(*analyzer, options, request, session,
                                                            files_, several_analyzers()));
         for (const auto& text : request.checks) add_check(text);
+        for (const auto& text : request.keys) add_key(text);
+        for (const auto& analysis : analyses_)
+            if (!request.keys.empty() && !keys_.contains(analysis.get()))
+                fail(ErrorKind::usage, "--keys: none of these is a result of {}: {}",
+                     analysis->analyzer().name, join(request.keys, ", "));
     }
 
     int go() {
@@ -323,27 +358,45 @@ class AnalyzeCall {
     void add_check(const std::string& text) {
         if (text == bare_check) return add_bare_check();
         Check check = parse_check(text);
-        const Analysis& analysis = analysis_of(check);
+        const Analysis& analysis = analysis_of(check.key, check.option);
         const Analyzer& analyzer = analysis.analyzer();
-        if (check.key.starts_with(analyzer.name) && !find_result(analyzer, check.key))
-            check.key =
-                check.key == analyzer.name ? "value" : check.key.substr(analyzer.name.size() + 1);
+        check.key = without_name(check.key, analyzer);
         const auto* result = find_result(analyzer, check.key.substr(0, check.key.find('[')));
         if (result != nullptr) require_sense(check, *result);
         checks_.push_back({std::move(check), &analysis});
     }
 
-    [[nodiscard]] const Analysis& analysis_of(const Check& check) const {
+    /// Adds a result to print; see add_check() for its key.
+    void add_key(const std::string& text) {
+        const Analysis& analysis = analysis_of(text, "--keys");
+        const Analyzer& analyzer = analysis.analyzer();
+        const std::string key = without_name(text, analyzer);
+        if (key.empty() || std::ranges::none_of(analyzer.results, [&key](const ResultKey& result) {
+                return names_result(result.key, key);
+            }))
+            fail_with_hint(ErrorKind::usage, suggest(key, result_keys(analyzer)),
+                           "--keys: {} has no result '{}'", analyzer.name, key);
+        keys_[&analysis].push_back(key);
+    }
+
+    static std::string without_name(const std::string& key, const Analyzer& analyzer) {
+        if (find_result(analyzer, key)) return key;
+        if (key == analyzer.name) return "value";
+        return key.starts_with(analyzer.name + ".") ? key.substr(analyzer.name.size() + 1) : key;
+    }
+
+    [[nodiscard]] const Analysis& analysis_of(const std::string& key,
+                                              const std::string& option) const {
         if (!several_analyzers()) return only();
         std::vector<std::string> names;
         for (const auto& analysis : analyses_) {
             const std::string& name = analysis->analyzer().name;
-            if (check.key == name || check.key.starts_with(name + ".")) return *analysis;
-            names.push_back(fmt::format("{}.{}", name, check.key));
+            if (key == name || key.starts_with(name + ".")) return *analysis;
+            names.push_back(fmt::format("{}.{}", name, key));
         }
         fail_with_hint(ErrorKind::usage, fmt::format("such as {}", join(names, " or ")),
-                       "--check: '{}' does not begin with the name of one of the analyzers",
-                       check.key);
+                       "{}: '{}' does not begin with the name of one of the analyzers", option,
+                       key);
     }
 
     /// Adds valid == true, the condition of --check without a text, for each analyzer with that
@@ -431,8 +484,13 @@ class AnalyzeCall {
 
     void print() {
         std::vector<Measurement> all;
-        for (const auto& [measurement, analysis] : in_order())
-            all.push_back(std::move(*measurement));
+        for (const auto& [measurement, analysis] : in_order()) {
+            Measurement& m = all.emplace_back(std::move(*measurement));
+            if (!request_.seconds) m.seconds.reset();
+            if (keys_.empty()) continue;
+            m.results = picked(m.results, keys_.at(analysis));
+            if (m.standard_error) m.standard_error = picked(*m.standard_error, keys_.at(analysis));
+        }
         files_.add(path_, std::stop_token())
             .write(format_ == ReportFormat::json  ? to_json(all)
                    : format_ == ReportFormat::csv ? to_csv(all)
@@ -448,6 +506,7 @@ class AnalyzeCall {
     io::Outputs files_;  ///< the report and the files beside it
     std::vector<std::unique_ptr<Analysis>> analyses_;
     std::vector<NamedCheck> checks_;
+    std::map<const Analysis*, std::vector<std::string>> keys_;  ///< of --keys
 };
 
 }  // namespace

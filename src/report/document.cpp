@@ -38,7 +38,7 @@ Json measurement_json(const Measurement& m) {
                    {"analyzer", m.analyzer},        {"input", input},
                    {"options", json_of(m.options)}, {"results", json_of(m.results)}};
     if (m.standard_error) object["standard_error"] = json_of(*m.standard_error);
-    object["seconds"] = m.seconds;
+    if (m.seconds) object["seconds"] = *m.seconds;
     return object;
 }
 

@@ -31,7 +31,7 @@ struct Measurement {
     std::vector<std::pair<std::string, std::string>> options = {};
     Report results = {};
     std::optional<Report> standard_error = {};  ///< set for a mean
-    double seconds = 0;
+    std::optional<double> seconds = 0.0;        ///< empty: not to be printed
 };
 
 /// The number under a key of a report; nullopt if there is none.

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "support/program.hpp"
@@ -12,6 +13,7 @@ namespace stipple::testing::check_test {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 namespace {
 
@@ -126,6 +128,59 @@ TEST(Check, WithoutAConditionIsRefusedWhereNothingTellsWhetherASetIsValid) {
     }
     EXPECT_EQ(sets.verify({"good.csv", "--check", "valid<"}).code, 2);
     EXPECT_EQ(sets.verify({"good.csv", "--check", "gone.csv"}).code, 4);
+}
+
+// The results that are printed, in all formats; conditions see all results.
+TEST(Keys, SelectTheResultsToPrint) {
+    const Sandbox box;
+    const std::string points = " --generate halton -n 64";
+    const std::string star = "stipple analyze star-discrepancy" + points;
+    const auto results = [&box](const std::string& command) {
+        return json::parse(good(box.shell(command + " -f json")))["results"];
+    };
+    const json all = results(star);
+    EXPECT_EQ(results(star + " --keys value"), (json{{"value", all["value"]}}));
+    const json box_alone = {{"worst_box", all["worst_box"]}};
+    EXPECT_EQ(results(star + " --keys worst_box --check 'value<1'"), box_alone);
+    EXPECT_EQ(results(star + " --keys corner,value").size(), 2U);
+    EXPECT_EQ(results(star + " --keys 'corner[1]'")["worst_box"]["corner[1]"],
+              all["worst_box"]["corner"][1]);
+    EXPECT_THAT(good(box.shell(star + " --keys value -f csv")),
+                StartsWith("analyzer,source,set,count,dimension,domain,value\n"));
+    const std::string text = good(box.shell(star + " --keys star-discrepancy -f text"));
+    EXPECT_THAT(text, HasSubstr("\n  value  0."));
+    EXPECT_EQ(std::ranges::count(text, '\n'), 2);
+    const std::string mean = good(
+        box.shell("stipple analyze moments --generate random -m 4 --average --keys mean -f json"));
+    EXPECT_TRUE(json::parse(mean)["standard_error"].contains("mean"));
+    EXPECT_FALSE(json::parse(mean)["standard_error"].contains("variance"));
+}
+
+TEST(Keys, AreThoseOfTheAnalyzers) {
+    const Sandbox box;
+    const std::string one = "stipple analyze star-discrepancy --generate halton --keys ";
+    expect_refusal(box.shell(one + "vlaue"), 2,
+                   "--keys: star-discrepancy has no result 'vlaue'; did you mean 'value'?");
+    expect_refusal(box.shell(one + "value,"), 2, "has no result ''");
+    expect_refusal(box.shell(one + "'corner[2]'"), 2,
+                   "--keys: 'corner[2]' is not a key; worst_box.corner has 2 numbers, from [0]");
+    const std::string two = "stipple analyze star-discrepancy,moments --generate halton --keys ";
+    const json both = json::parse(good(box.shell(two + "star-discrepancy,moments.mean -f json")));
+    EXPECT_TRUE(both[0]["results"].contains("value") && both[0]["results"].size() == 1);
+    EXPECT_TRUE(both[1]["results"].contains("mean") && !both[1]["results"].contains("variance"));
+    expect_refusal(box.shell(two + "value"), 2,
+                   "--keys: 'value' does not begin with the name of one of the analyzers; such as "
+                   "star-discrepancy.value or moments.value");
+    expect_refusal(box.shell(two + "moments.mean"), 2,
+                   "--keys: none of these is a result of star-discrepancy: moments.mean");
+}
+
+TEST(NoSeconds, GivesTheSameBytesAgain) {
+    const Sandbox box;
+    const std::string command = "stipple analyze moments --generate halton -f json --no-seconds";
+    const std::string text = good(box.shell(command));
+    EXPECT_FALSE(json::parse(text).contains("seconds"));
+    EXPECT_EQ(good(box.shell(command)), text);
 }
 
 }  // namespace stipple::testing::check_test

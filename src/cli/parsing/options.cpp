@@ -289,6 +289,10 @@ const std::vector<Row> rows = {
      &AnalyzeRequest::pool},
     {"--full", "", "", "text output with all numbers of long lists, as tables", analyze,
      &AnalyzeRequest::full},
+    {"--keys", "KEY,...", "",
+     "results to print, by name or by a dotted part of it: value, worst_box, mean[0]; of several "
+     "analyzers: ANALYZER.KEY; default: all",
+     analyze, &AnalyzeRequest::keys},
     {"--explain", "", "",
      "text output that explains each result: its meaning, which of two values is better, and what "
      "is typical of 1024 points in the plane",
@@ -390,6 +394,8 @@ const std::vector<Row> rows = {
      study, &SweepRequest::time_limit, 0, 1e9},
     {"--no-seconds", "", "", "omit the timing columns, so that every run gives the same bytes",
      study, &SweepRequest::seconds},
+    {"--no-seconds", "", "", "omit the time taken, so that every run gives the same bytes", analyze,
+     &AnalyzeRequest::seconds},
     {"--yes", "", "", "start even with more than 10 million rows", study, &StudyRequest::yes},
     {"--max-work", "N", "1e9",
      "limit of comparisons in each search for a worst box (a few seconds); a search that reaches "

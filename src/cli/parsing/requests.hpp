@@ -119,6 +119,8 @@ struct AnalyzeRequest : Sources {
     bool pool = false;
     bool full = false;
     bool explain = false;
+    std::vector<std::string> keys = {};
+    bool seconds = true;
 
     [[nodiscard]] bool averaged() const { return average || pool; }
 
