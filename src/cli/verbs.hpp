@@ -28,6 +28,9 @@ std::string complete(std::vector<std::string> words);
 /// Text of --help for the program, a verb, or a unit of a verb; made from the units' records.
 std::string help_text(const Arguments& arguments);
 
+/// All words that `stipple help WORD` explains: topics, verbs, units and terms.
+std::vector<std::string> explained_words();
+
 /// Versions of stipple and the libraries it is linked with.
 std::string version_text();
 

@@ -18,7 +18,9 @@
 namespace stipple::testing::help_test {
 
 using namespace stipple::cli;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 namespace {
 
@@ -112,7 +114,22 @@ TEST(List, IsTheWholeRegistry) {
         }
         EXPECT_EQ(box.run({"list", kind.name.substr(0, kind.name.size() - 1)}).out, one.out);
     }
-    EXPECT_EQ(box.run({"list", "nonsense"}).code, 2);
+    expect_refusal(box.run({"list", "nonsense"}), 2, "unknown kind 'nonsense'; known: generators");
+    for (const std::string word : {"disk", "discrepancy", "poisson-disk"}) {
+        const std::string help = "'stipple help " + word + "' explains it; known: generators";
+        EXPECT_THAT(box.run({"list", word}).err, HasSubstr(help));
+    }
+}
+
+TEST(Help, NamesTheOtherUnitOfTheSameName) {
+    const Sandbox box;
+    EXPECT_THAT(good(box.run({"help", "poisson-disk"})),
+                EndsWith("\n\n'stipple analyze poisson-disk --help' is about the analyzer of this "
+                         "name.\n"));
+    EXPECT_THAT(good(box.run({"analyze", "poisson-disk", "--help"})),
+                EndsWith("\n\n'stipple generate poisson-disk --help' is about the generator of "
+                         "this name.\n"));
+    EXPECT_THAT(good(box.run({"help", "halton"})), Not(HasSubstr("of this name")));
 }
 
 // Also with long tags, multi-byte letters, and words that are too long.

@@ -280,6 +280,11 @@ HelpPage page_of_unit(const VerbInfo& info, const UnitInfo& unit) {
     page.section("Options of " + info.name);
     add_common_options(page, info.verb);
     page.paragraph(info.text);
+    for (const Kind& kind : catalog())
+        if (kind.verb != info.name && find_verb(kind.verb) && find_unit(kind, unit.name))
+            page.paragraph(fmt::format("'stipple {} {} --help' is about the {} of this name.",
+                                       kind.verb, unit.name,
+                                       kind.name.substr(0, kind.name.size() - 1)));
     return page;
 }
 
@@ -314,12 +319,7 @@ const Topic* find_topic(const std::string& name) {
 }
 
 [[noreturn]] void refuse_name(const std::string& name) {
-    std::vector<std::string> known;
-    for (const Topic& topic : topics()) known.push_back(topic.name);
-    for (const VerbInfo& info : verbs()) known.push_back(info.name);
-    for (const Kind& kind : catalog())
-        for (std::string& unit : names_of(kind)) known.push_back(std::move(unit));
-    for (std::string& term : glossary_terms()) known.push_back(std::move(term));
+    const std::vector<std::string> known = explained_words();
     fail_with_hint(ErrorKind::usage,
                    nearest_words(name, known).empty() ? "'stipple help' lists topics and verbs"
                                                       : suggest(name, known),
@@ -377,6 +377,16 @@ void write_manual(const std::string& folder) {
 }
 
 }  // namespace
+
+std::vector<std::string> explained_words() {
+    std::vector<std::string> known;
+    for (const Topic& topic : topics()) known.push_back(topic.name);
+    for (const VerbInfo& info : verbs()) known.push_back(info.name);
+    for (const Kind& kind : catalog())
+        for (std::string& unit : names_of(kind)) known.push_back(std::move(unit));
+    for (std::string& term : glossary_terms()) known.push_back(std::move(term));
+    return known;
+}
 
 std::string help_text(const Arguments& arguments) {
     if (!arguments.verb) return page_of_program(HelpPage::Style::text).text();

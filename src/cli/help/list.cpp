@@ -3,6 +3,7 @@
 // The verb `list`: all units as text or JSON.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -64,9 +65,12 @@ int ListRequest::perform(Session&) const {
         std::erase_if(kinds, [&](const Kind& kind) {
             return kind.name != wanted && kind.name != wanted + "s";
         });
+        const auto explained = explained_words();
+        const bool other = std::ranges::find(explained, wanted) != explained.end();
         if (kinds.empty())
             fail_with_hint(ErrorKind::usage,
-                           "known: generators, scrambles, warps, analyzers, formats",
+                           (other ? fmt::format("'stipple help {}' explains it; ", wanted) : "") +
+                               "known: generators, scrambles, warps, analyzers, formats",
                            "unknown kind '{}'", wanted);
     }
     write_text(output.value_or("-"), json   ? json_of(kinds).dump(2) + "\n"
