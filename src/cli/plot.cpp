@@ -74,6 +74,7 @@ struct Loaded {
     std::optional<std::size_t> number;  ///< index in the file, if it has several sets
     bool npy;                           ///< read from NPY, so possibly a table saved by --grid
     std::string title;                  ///< made from the provenance or the source
+    std::string typed;                  ///< command or spec that made it; empty if unknown
     std::size_t left_out = 0;           ///< number of rows with missing numbers
 };
 
@@ -88,41 +89,12 @@ std::string title_of_points(const Provenance& from, const std::string& source) {
     return title;
 }
 
-bool seed_matters(const Generator& generator, const Provenance& from) {
-    // Scrambles, such as "owen" or "owen:depth=3", depend on the seed, unlike warps.
-    for (const std::string& warp : from.warps)
-        if (scramble_named(warp.substr(0, warp.find_first_of(":@"))) != nullptr) return true;
-    try {
-        Values values = generator.options.defaults();
-        for (const auto& [name, text] : from.options) generator.options.set(values, name, text);
-        return uses_seed(generator, values);
-    } catch (const Error&) {
-        return generator.traits.seeded;  // the options are those of another version of stipple
-    }
-}
-
-/// Options that differ from their defaults, such as "scramble=owen", except long ones.
-std::vector<std::string> options_in(const Provenance& from, const Generator& generator) {
-    std::vector<std::string> changed;
-    const auto defaults = typed_settings(generator.options.defaults(), generator.options);
-    for (const auto& setting : from.options) {
-        constexpr std::size_t readable = 40;
-        const auto& [name, value] = setting;
-        const bool is_default = std::ranges::find(defaults, setting) != defaults.end();
-        const auto number = parse_number(value);
-        if (!is_default && value.size() <= readable)
-            changed.push_back(
-                fmt::format("{}={}", name, number ? plot::rounded(*number, 5) : value));
-    }
-    return changed;
-}
-
 /// Title with options, such as "sobol:scramble=owen, disk", for pictures without a subtitle.
 std::string full_title(const Loaded& set) {
     const Provenance& from = set.points.provenance;
     const Generator* generator = generator_named(from.generator);
-    const auto options =
-        generator != nullptr ? options_in(from, *generator) : std::vector<std::string>();
+    const auto options = generator != nullptr ? changed_options(from, *generator, set.typed)
+                                              : std::vector<std::string>();
     if (options.empty() || !set.title.starts_with(from.generator)) return set.title;
     return fmt::format("{}:{}{}", from.generator, join(options, ","),
                        set.title.substr(from.generator.size()));
@@ -140,7 +112,8 @@ std::string subtitle_of(const Loaded& set) {
     if (const Generator* generator = generator_named(from.generator)) {
         if (seed_matters(*generator, from)) text += fmt::format(", seed {}", from.seed);
         if (from.start > 0) text += fmt::format(", from index {}", from.start);
-        for (const std::string& option : options_in(from, *generator)) text += ", " + option;
+        for (const std::string& option : changed_options(from, *generator, set.typed))
+            text += ", " + option;
     }
     return text;
 }
@@ -253,10 +226,11 @@ class Plot {
         for (std::size_t i = 0; i < sets.size(); ++i) {
             const std::size_t left_out = leave_out_gaps(sets[i], input, run);
             sets[i] = placed(std::move(sets[i]), input, request_);
-            const std::string title = title_of_points(sets[i].provenance, input);
+            const Provenance made = sets[i].provenance;
             sets_.push_back({std::move(sets[i]), input,
                              sets.size() > 1 ? std::optional(i) : std::nullopt,
-                             bytes.starts_with(npy_magic), title, left_out});
+                             bytes.starts_with(npy_magic), title_of_points(made, input),
+                             made.command, left_out});
         }
     }
 
@@ -271,7 +245,7 @@ class Plot {
                 std::string title = title_of_points(points.provenance, spec);
                 sets_.push_back({std::move(points), spec,
                                  count > 1 ? std::optional(set) : std::nullopt, false,
-                                 std::move(title)});
+                                 std::move(title), spec});
             }
         }
     }
@@ -452,8 +426,31 @@ class Plot {
                 picture.circles.push_back({.centre = {gap.center[0], gap.center[1]},
                                            .radius = gap.radius,
                                            .torus = distances.torus});
+            } else if (word.starts_with("grid=")) {
+                add_grid(picture, set.points, std::string_view(word).substr(5));
             } else {
-                fail(ErrorKind::usage, "--draw: '{}' is not one of cells, gap", word);
+                fail(ErrorKind::usage, "--draw: '{}' is not one of cells, gap, grid=COLUMNSxROWS",
+                     word);
+            }
+        }
+    }
+
+    /// Adds the lines between equal cells of the domain's box. @param text COLUMNSxROWS
+    static void add_grid(plot::PointsPicture& picture, const PointSet& set, std::string_view text) {
+        const auto parts = split(text, 'x');
+        const Box box = set.domain->bounding_box();
+        for (std::size_t k = 0; k < 2; ++k) {
+            const auto cells = parts.size() == 2 ? parse_unsigned(parts[k]) : std::nullopt;
+            if (!cells || *cells < 1 || *cells > 1024)
+                fail(ErrorKind::usage, "--draw: 'grid={}' is not grid=COLUMNSxROWS of 1 to 1024",
+                     text);
+            for (std::uint64_t i = 1; i < *cells; ++i) {
+                plot::Position from{box.low[0], box.low[1]};
+                plot::Position to{box.high[0], box.high[1]};
+                const double at = static_cast<double>(i) / static_cast<double>(*cells);
+                (k == 0 ? from.x : from.y) = (k == 0 ? to.x : to.y) =
+                    box.low[k] + at * box.extent(k);
+                picture.lines.emplace_back(from, to);
             }
         }
     }
@@ -465,6 +462,7 @@ class Plot {
             picture.sets = {picture.sets[i]};
             picture.title = sets_[i].title + number_of(sets_[i]);
             picture.names = {picture.title};
+            if (untitled()) picture.title.clear();
             picture.subtitle = subtitle_of(sets_[i]);
             add_overlays(picture, sets_[i]);
             return picture;
@@ -500,7 +498,7 @@ class Plot {
         for (std::size_t i = 0; i < parts; ++i) {
             const bool last = i + 1 == parts || (i + 1) % columns == 0;
             plot::PictureStyle style = style_;
-            style.title.reset();
+            if (!untitled()) style.title.reset();
             style.width = width + (last ? more : 0);
             if (style_.height > 0) style.height = std::floor((style_.height - top) / rows);
             style.rows = rows;
@@ -509,6 +507,8 @@ class Plot {
         plot::add_rows(drawing, std::move(drawn), columns, top);
         return finished(std::move(drawing));
     }
+
+    [[nodiscard]] bool untitled() const { return request_.title && request_.title->empty(); }
 
     [[nodiscard]] std::size_t columns_of(std::size_t parts) const {
         const bool both = style_.width > 0 && style_.height > 0;
@@ -621,10 +621,19 @@ class Plot {
         refuse_scales("a table");
         const std::vector<Measurement> found = analyzed_tables();
         if (found.size() > 1) return sheet_of_tables(found);
-        const std::string title =
-            request_.title.value_or(fmt::format("{} of {}", grid_title_, sets_[0].title));
-        return drawn_table(grid_of(found[0]), title, subtitle_of(sets_[0]) + number_of(sets_[0]),
+        const std::string title = request_.title.value_or(
+            fmt::format("{} of {}", grid_title_, table_title(found[0], sets_[0])));
+        return drawn_table(grid_of(found[0]), title, table_subtitle(found[0], sets_[0]),
                            names_of(found[0]));
+    }
+
+    /// Title and subtitle of a measurement of the set, or of the mean over it and later sets.
+    static const std::string& table_title(const Measurement& m, const Loaded& first) {
+        return m.sets > 1 ? m.source : first.title;
+    }
+    static std::string table_subtitle(const Measurement& m, const Loaded& first) {
+        if (m.sets > 1) return fmt::format("{} points, mean of {} sets", m.count, m.sets);
+        return subtitle_of(first) + number_of(first);
     }
 
     static const Grid& grid_of(const Measurement& m) {
@@ -643,19 +652,15 @@ class Plot {
             return in_letters(found.size(), [&](std::size_t i, const plot::TextRoom& room) {
                 return plot::spectrum_as_text(grid_of(found[i]), found[i].source, room);
             });
-        return on_sheet(
-            found.size(), room_of_bar,
-            [&](std::size_t i, const plot::PictureStyle& style, bool last_in_row) {
-                const Loaded& first = sets_[firsts[i]];
-                const bool mean = found[i].sets > 1;
-                const std::string points =
-                    mean ? fmt::format("{} points, mean of {} sets", found[i].count, found[i].sets)
-                         : subtitle_of(first);
-                plot::TableNames names = names_of(found[i]);
-                names.bar = last_in_row;
-                return plot::draw_spectrum(grid_of(found[i]), mean ? found[i].source : first.title,
-                                           points, style, names);
-            });
+        return on_sheet(found.size(), room_of_bar,
+                        [&](std::size_t i, const plot::PictureStyle& style, bool last_in_row) {
+                            const Loaded& first = sets_[firsts[i]];
+                            plot::TableNames names = names_of(found[i]);
+                            names.bar = last_in_row;
+                            return plot::draw_spectrum(
+                                grid_of(found[i]), table_title(found[i], first),
+                                table_subtitle(found[i], first), style, names);
+                        });
     }
 
     std::string drawn_table(const Grid& table, const std::string& title,

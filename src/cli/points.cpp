@@ -18,6 +18,7 @@
 #include "pipeline/pipeline.hpp"
 #include "pipeline/units.hpp"
 #include "pipeline/warping.hpp"
+#include "plot/drawing/ticks.hpp"
 
 namespace stipple::cli {
 namespace {
@@ -138,6 +139,49 @@ std::string command_text(const Arguments& arguments,
             std::ranges::find(left_out, name) == left_out.end())
             text += typed_common(arguments, name, value);
     return text;
+}
+
+namespace {
+
+/// Whether a command or a spec sets the option.
+bool sets_option(std::string_view command, std::string_view name) {
+    const auto is_at = [command](std::size_t at, std::string_view letters) {
+        return at >= command.size() || letters.find(command[at]) != std::string_view::npos;
+    };
+    for (auto at = command.find(name); at != command.npos; at = command.find(name, at + 1))
+        if (at > 0 && is_at(at - 1, "-:,") && is_at(at + name.size(), " =,")) return true;
+    return false;
+}
+
+}  // namespace
+
+bool seed_matters(const Generator& generator, const Provenance& from) {
+    // Scrambles, such as "owen" or "owen:depth=3", depend on the seed, unlike warps.
+    for (const std::string& warp : from.warps)
+        if (scramble_named(warp.substr(0, warp.find_first_of(":@"))) != nullptr) return true;
+    try {
+        Values values = generator.options.defaults();
+        for (const auto& [name, text] : from.options) generator.options.set(values, name, text);
+        return uses_seed(generator, values);
+    } catch (const Error&) {
+        return generator.traits.seeded;  // the options are those of another version of stipple
+    }
+}
+
+std::vector<std::string> changed_options(const Provenance& from, const Generator& generator,
+                                         std::string_view typed) {
+    std::vector<std::string> changed;
+    const auto defaults = typed_settings(generator.options.defaults(), generator.options);
+    for (const auto& setting : from.options) {
+        constexpr std::size_t readable = 40;
+        const auto& [name, value] = setting;
+        const bool is_default = std::ranges::find(defaults, setting) != defaults.end();
+        const auto number = parse_number(value);
+        if (!is_default && value.size() <= readable && (typed.empty() || sets_option(typed, name)))
+            changed.push_back(
+                fmt::format("{}={}", name, number ? plot::rounded(*number, 5) : value));
+    }
+    return changed;
 }
 
 std::string shell_word(const std::string& word) {

@@ -57,6 +57,15 @@ std::string typed_options(const Arguments& arguments,
 /// " --name value", quoted for a shell.
 std::string typed_option(const std::string& name, const std::string& value, bool flag);
 
+/// Whether the points depend on the seed.
+bool seed_matters(const Generator& generator, const Provenance& from);
+
+/// Options of a set's generator that are not at their defaults, such as "scramble=owen", except long
+/// ones and those that the generator decided.
+/// @param typed command or spec that made the set; empty if unknown
+std::vector<std::string> changed_options(const Provenance& from, const Generator& generator,
+                                         std::string_view typed);
+
 /// A verb's inputs and common options as typed, quoted for a shell; without the options in
 /// `left_out` and those that never affect a result.
 std::string command_text(const Arguments& arguments,

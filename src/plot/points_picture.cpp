@@ -284,9 +284,13 @@ void draw_cells(Drawing& drawing, const PointSet& set, const Panel& panel, const
     }
 }
 
-/// Draws the circles, clipped to the frame; circles on the torus get periodic copies.
+/// Draws the lines and the circles, clipped to the frame; circles on the torus get periodic copies.
 void draw_circles(Drawing& drawing, const PointsPicture& picture, const Panel& panel,
                   const Theme& theme) {
+    for (const auto& [from, to] : picture.lines)
+        drawing.add(Line{.vertices = {panel.at(from.x, from.y), panel.at(to.x, to.y)},
+                         .colour = theme.guide,
+                         .width = 0.8});
     if (picture.circles.empty()) return;
     const Box box = picture.sets[0]->domain->bounding_box();
     drawing.add(ClipWindow{.area = panel.frame()});

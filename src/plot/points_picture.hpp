@@ -57,6 +57,7 @@ struct PointsPicture {
     Marking marking = Marking::automatic;
     std::vector<MarkedBox> boxes = {};
     std::vector<MarkedCircle> circles = {};
+    std::vector<std::pair<Position, Position>> lines = {};  ///< drawn thinly over plane points
     bool cells = false;  ///< draws the Voronoi cells of a single plane set, in its domain's box
     bool pairs = false;  ///< draws three coordinates as pairs
     std::size_t most_disks = 20'000;  ///< limit beyond which pixels replace disks

@@ -435,8 +435,18 @@ TEST(Plot, DrawsCellsAndTheLargestGap) {
     EXPECT_EQ(lines("--draw cells"), plain + 24);  // edges between 16 squares
     EXPECT_EQ(lines("--draw gap"), plain + 18);    // a disk and its rim, with periodic copies
     EXPECT_EQ(lines("--draw gap,cells"), plain + 42);
+    EXPECT_EQ(lines("--draw grid=8x4"), plain + 10);  // 7 lines upward, and 3 across
+    EXPECT_EQ(lines("--draw grid=1x2,cells"), plain + 25);
+    for (const std::string extension : {"pdf", "png"}) {
+        good(box.shell("stipple plot g.csv -o a." + extension));
+        good(box.shell("stipple plot g.csv --draw grid=8x4 -o b." + extension));
+        EXPECT_NE(box.read("a." + extension), box.read("b." + extension));
+    }
+    for (const std::string text : {"8", "8x", "0x4", "8x4x2", "axb", "2000x2"})
+        expect_refusal(box.shell("stipple plot g.csv -o g.svg --draw grid=" + text), 2,
+                       "--draw: 'grid=" + text + "' is not grid=COLUMNSxROWS of 1 to 1024");
     expect_refusal(box.shell("stipple plot g.csv -o g.svg --draw holes"), 2,
-                   "not one of cells, gap");
+                   "not one of cells, gap, grid=COLUMNSxROWS");
     expect_refusal(box.shell("stipple plot --generate random -d 3 -o g.svg --draw gap"), 2,
                    "--draw");
 }
@@ -736,6 +746,53 @@ TEST(Plot, DrawsTheRimOfADomain) {
     good(box.shell("stipple generate random -n 20 | stipple plot -o c.svg"));
     EXPECT_EQ(xml(box, "a.svg", "path"), xml(box, "b.svg", "path"));
     EXPECT_NE(xml(box, "a.svg", "path"), xml(box, "c.svg", "path"));
+}
+
+// What the generator decided, such as the radius for a count, differs from frame to frame.
+TEST(Plot, TitlesHaveOnlyTheOptionsThatTheUserTyped) {
+    const Sandbox box;
+    good(box.shell("stipple generate poisson-disk --count 64 --order=progressive --meta -o p.csv"));
+    for (const std::string from : {"p.csv", "--generate poisson-disk:order=progressive -n 64"}) {
+        good(box.shell("stipple plot -o a.svg " + from));
+        const std::string texts = xml(box, "a.svg", "text");
+        EXPECT_THAT(texts, HasSubstr("64 points, seed 1, order=progressive|"));
+        EXPECT_THAT(texts, Not(HasSubstr("radius="))) << from;
+    }
+    good(box.shell("stipple plot -o a.svg --generate poisson-disk:radius=0.1"));
+    EXPECT_THAT(xml(box, "a.svg", "text"), HasSubstr(", seed 1, radius=0.1|"));
+}
+
+// What newcomers meet first: points that are not in the unit cube, or have one coordinate too many.
+TEST(Plot, AndAnalyzeSayHowToGoOn) {
+    const Sandbox box;
+    good(box.shell("stipple generate random -w disk -o disk.csv"));
+    EXPECT_THAT(box.shell("stipple analyze chi-square disk.csv").err,
+                HasSubstr("; --domain names the domain of the points, or --meta on the first"));
+    EXPECT_THAT(box.shell("stipple analyze star-discrepancy disk.csv").err,
+                HasSubstr("; the measure is defined for the unit cube; --rescale or --bounds"));
+    EXPECT_THAT(box.shell("stipple plot --generate random -d 3 -w sphere").err,
+                HasSubstr("; name the coordinates: sphere@1,2, or make points with -d 2"));
+}
+
+TEST(Plot, WithoutATitleNoFrameHasOne) {
+    const Sandbox box;
+    const std::string two = "--generate random --generate halton -n 64 --title '' ";
+    for (const std::string chart : {"points", "spectrum", "local-discrepancy"}) {
+        good(box.shell("stipple plot -o a.svg " + two + "--chart " + chart));
+        EXPECT_THAT(xml(box, "a.svg", "text"), Not(HasSubstr("64 points"))) << chart;
+        EXPECT_THAT(xml(box, "a.svg", "text"), Not(HasSubstr("halton"))) << chart;
+    }
+    EXPECT_THAT(good(box.shell("stipple plot -f text " + two)), Not(HasSubstr("halton")));
+}
+
+TEST(Plot, AMeanSpectrumSaysOfHowManySets) {
+    const Sandbox box;
+    good(
+        box.shell("stipple plot --generate sobol:scramble=owen -n 64 -m 8 --chart spectrum "
+                  "-o a.svg"));
+    const std::string texts = xml(box, "a.svg", "text");
+    EXPECT_THAT(texts, HasSubstr("of sobol:scramble=owen|64 points, mean of 8 sets|"));
+    EXPECT_THAT(texts, Not(HasSubstr("seed 1")));
 }
 
 }  // namespace stipple::testing::plot_test

@@ -314,8 +314,9 @@ const std::vector<Row> rows = {
     {"--overlay", "", "",
      "draw several sets of points in one frame, in colours; default: one frame per set", plot,
      &PlotRequest::overlay},
-    {"--draw", "cells,gap", "",
-     "also draw the Voronoi cells of points in the plane, their largest empty circle, or both",
+    {"--draw", "cells,gap,grid=CxR", "",
+     "also draw the Voronoi cells of points in the plane, their largest empty circle, or C x R "
+     "equal cells, such as strata: grid=8x4",
      plot, &PlotRequest::draw},
     {"--keys", "KEY,...", "",
      "results to keep, by name or by a dotted part of it: value, radial.power, mean[0]; "
