@@ -210,7 +210,7 @@ TEST(Help, FindsTheUnitThatIsMeant) {
 TEST(List, SaysThatLegacyGeneratorsAreSequential) {
     const Sandbox box;
     EXPECT_THAT(one_line(box.run({"list", "generators"}).out),
-                HasSubstr("legacy engines are sequential"));
+                HasSubstr("by a counter or by older engines"));
 }
 
 TEST(Help, SaysWhatDomainsAnAnalyzerTakes) {

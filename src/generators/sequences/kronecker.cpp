@@ -178,7 +178,7 @@ std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
 
 Generator unit() {
     return {.name = "kronecker",
-            .summary = "Kronecker sequence: multiples of a vector modulo 1; by default R_d",
+            .summary = "Kronecker sequence: multiples of a vector modulo 1, R_d if none is given",
             .source = "Roberts 2018, extremelearning.com.au; Kuipers & Niederreiter 1974",
             .related = {"golden-ratio", "plastic-number", "richtmyer"},
             .traits = {.seeded = false},

@@ -82,7 +82,7 @@ std::uint64_t max_seed(const Values& options) {
 Generator unit() {
     return {
         .name = "random",
-        .summary = "Independent uniform random points; legacy engines are sequential",
+        .summary = "Independent uniform random points, by a counter or by older engines",
         .source = "Salmon et al. 2011, doi:10.1145/2063384.2063405",
         .related = {"monte-carlo", "pseudorandom", "mersenne-twister", "mt19937", "white", "rand"},
         .traits = {.independent = true},

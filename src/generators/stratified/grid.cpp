@@ -61,7 +61,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
 
 Generator unit() {
     return {.name = "grid",
-            .summary = "Regular grid of k^d points, or of any shape",
+            .summary = "Regular grid: k^d points, or another number along each axis",
             .source = "Standard construction",
             .related = {"uniform-grid"},
             .traits = {.prefix = false, .seeded = false},

@@ -82,7 +82,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
 
 Generator unit() {
     return {.name = "orthogonal-array",
-            .summary = "Points from orthogonal arrays: stratified in any t coordinates at once",
+            .summary = "Points from orthogonal arrays: stratified in several coordinates jointly",
             .source =
                 "Jarosz et al. 2019, doi:10.1111/cgf.13777; Bose 1938; Bush 1952, "
                 "doi:10.1214/aoms/1177729387",
