@@ -162,7 +162,7 @@ def write_python_tutorial(docs):
         print("scripts/guide: the Python module is not built: its tutorial has no outputs", file=sys.stderr)
         runs = False
     cells = cells_of((ROOT / "data/examples/tutorial.py").read_text(encoding="utf-8"))
-    text, names, before = "# Ten minutes in Python\n", {"__name__": "__main__"}, os.getcwd()
+    text, names, before = "", {"__name__": "__main__"}, os.getcwd()
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         for number, (words, code) in enumerate(zip(cells[::2], cells[1::2])):

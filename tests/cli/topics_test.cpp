@@ -40,6 +40,8 @@ TEST(Topics, LeadOn) {
 }
 
 TEST(Topics, ArePlainText) {
+    EXPECT_EQ(plain_page("The *unit\nsquare* of 2 * x * y. See\n[nets](concepts.md#nets).\n"),
+              "The unit\nsquare of 2 * x * y. See\nnets ('stipple help concepts').\n");
     EXPECT_EQ(plain_page("# Head\n\n![a\npicture](x.svg)\n\nA **term** and\n[a `link`](x.md#a).\n"),
               "# Head\n\nA term and\na link.\n");
     EXPECT_EQ(plain_page("```sh\nstipple list\n\nb\n```\n\n`a b` in [0, 1) [x](y)\n"),
@@ -60,6 +62,10 @@ TEST(Topics, ExplainTerms) {
     const std::string strata = good(box.run({"help", "Strata"}));
     EXPECT_THAT(strata, HasSubstr("stratum"));
     EXPECT_EQ(good(box.run({"help", "stratum"})), strata);
+    // A unit whose name is a term, too, comes after the term.
+    const std::string both = good(box.run({"help", "stratified"}));
+    EXPECT_THAT(both, HasSubstr("\njittered: "));
+    EXPECT_THAT(both, ::testing::StartsWith("stratified"));
     const Outcome typo = box.run({"help", "discrepency"});
     EXPECT_EQ(typo.code, 2);
     EXPECT_THAT(typo.err, HasSubstr("did you mean 'discrepancy'?"));

@@ -504,6 +504,9 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     const Sums sums = sums_over(points, view, tasks, uniform, run);
     Report report;
     if (!options[as_mean]) tell_support(support, report);
+    if (options.given(expression) && !options[as_mean] && !support.finite)
+        run.notify("the estimate is of the integral over all of " + domain.title() +
+                   "; for the mean of the expression, such as an expected value, add --mean");
     const std::string& columns = points.provenance.density_column;
     const std::string column = columns.substr(0, columns.find(','));
     if (!points.densities.empty() && !options[as_mean])

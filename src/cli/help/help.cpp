@@ -328,15 +328,16 @@ const Topic* find_topic(const std::string& name) {
 
 /// Help for a unit named without its verb, for a term, or for what another package calls something.
 std::string help_of_word(const std::string& name) {
+    std::string found = filled_page(glossary_entry(name), text_columns());
     for (const Kind& kind : catalog()) {
         const UnitInfo* unit = find_unit(kind, name);
         if (unit == nullptr) continue;
-        if (const VerbInfo* info = find_verb(kind.verb)) return page_of_unit(*info, *unit).text();
+        if (const VerbInfo* info = find_verb(kind.verb))
+            return found + (found.empty() ? "" : "\n") + page_of_unit(*info, *unit).text();
         // Formats, such as csv, have no verb, but a common topic.
         if (const Topic* topic = find_topic(kind.name))
             return filled_page(topic->text, text_columns());
     }
-    std::string found = filled_page(glossary_entry(name), text_columns());
     if (const std::string lines = coming_from(name); !lines.empty())
         found += (found.empty() ? "" : "\n") + lines;
     if (!found.empty()) return found;

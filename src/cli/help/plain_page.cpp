@@ -62,10 +62,12 @@ std::string plain_prose(std::string_view text) {
         std::size_t used = 1;
         if (const auto link = link_at(text.substr(picture ? 1 : 0))) {
             const std::string_view page = page_of(link->target);
-            if ((leads_on || out.ends_with("See ")) && !page.empty())
+            const bool named = !page.empty() && trim(out).ends_with("See");
+            if (leads_on && !page.empty())
                 out += fmt::format("'stipple help {}'", page);
             else if (!picture)
                 out += plain_prose(link->words);
+            if (named) out += fmt::format(" ('stipple help {}')", page);
             used = link->length + (picture ? 1 : 0);
         } else if (text.starts_with("**")) {
             used = 2;

@@ -9,8 +9,8 @@
 namespace stipple::cli {
 
 /// Markdown of a page as plain text. Code is indented by four blanks, and code within a sentence is
-/// quoted if it has blanks; links keep their words alone, and those to another page after "See" or
-/// "Read on:" become its `stipple help` command; pictures, comments and inserted tables are left out.
+/// quoted if it has blanks; links keep their words alone, with the `stipple help` command of their page after "See"; after
+/// "Read on:" they become that command; pictures, comments and inserted tables are left out.
 /// Headings and other tables stay as they are.
 std::string plain_page(std::string_view page);
 
