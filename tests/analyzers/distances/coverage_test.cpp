@@ -261,8 +261,10 @@ TEST(Coverage, GivesUpAfterSoManyBoxes) {
 TEST(Coverage, RefusesDomainsThatAreNoBox) {
     PointSet set = points_of({{0, 0}});
     set.domain = parse_domain("disk", 2);
-    EXPECT_EQ(error_of([&] { analyze(unit, set); }),
-              "input: coverage requires points of the unit cube or a box; the domain is disk");
+    EXPECT_EQ(
+        error_of([&] { analyze(unit, set); }),
+        "input: coverage requires points of the unit cube or a box; the domain is disk | 'stipple "
+        "warp NAME --inverse' takes points back to the unit cube");
     EXPECT_EQ(error_of([&] {
                   analyze(unit, points_of({{0, 2}}), with(false));
               }),
