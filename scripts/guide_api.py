@@ -3,6 +3,7 @@
 
 import ast
 import contextlib
+import importlib.util
 import io
 import os
 import re
@@ -155,12 +156,9 @@ def cells_of(source):
 def write_python_tutorial(docs):
     """Writes guide/tutorial-python.md: with outputs if the module can be imported, else without."""
     sys.path.insert(0, str(ROOT / "build/release/python"))
-    try:
-        import stipple  # noqa: F401
-        runs = True
-    except ImportError:
+    runs = importlib.util.find_spec("stipple") is not None
+    if not runs:
         print("scripts/guide: the Python module is not built: its tutorial has no outputs", file=sys.stderr)
-        runs = False
     cells = cells_of((ROOT / "data/examples/tutorial.py").read_text(encoding="utf-8"))
     text, names, before = "", {"__name__": "__main__"}, os.getcwd()
     with tempfile.TemporaryDirectory() as folder:

@@ -98,7 +98,7 @@ def draw(kind, unit, folder, target, stipple):
     size = ["--width", "420", "--height", "420", "--quiet", "-o", str(target)]
     tries = [["--generate", spec, "-n", "256"], ["--generate", spec]]
     if kind == "warps":
-        tries = [["--generate", f"jittered", "-n", count, "-d", d, "-w", spec]
+        tries = [["--generate", "jittered", "-n", count, "-d", d, "-w", spec]
                  for d, count in (("1", "400"), ("2", "400"), ("3", "343"))]
     for words in tries:
         try:
