@@ -404,12 +404,6 @@ def test_units_are_listed_and_described():
         stipple.list("no such kind")
 
 
-def test_type_stubs_are_python():
-    path = os.path.join(os.path.dirname(stipple.__file__), "__init__.pyi")
-    with open(path, encoding="utf-8") as file:
-        compile(file.read(), path, "exec")
-
-
 def test_progress_is_shown(capsys):
     shares = []
     stipple.analyze("star-discrepancy", stipple.generate("random", 3000, 4),
