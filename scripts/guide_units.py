@@ -83,12 +83,17 @@ def linked_source(source):
     return re.sub(r"arXiv:(\d+\.\d+)", r"[arXiv:\1](https://arxiv.org/abs/\1)", source)
 
 
+def anchor(heading):
+    """The anchor of a heading: its letters and digits in lower case, with dashes for blanks."""
+    text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading)
+    return re.sub(r"[^\w\- ]", "", text.lower()).strip().replace(" ", "-")
+
+
 def definition(unit, headings):
     """Link to the section of the definitions whose heading has the analyzer's name."""
     for heading in headings:
         if f"`{unit['name']}`" in heading:
-            name = re.sub(r"[^\w\- ]", "", heading.lower()).strip().replace(" ", "-")
-            return f"## Definition\n\n[{heading.replace('`', '')}](../../guide/definitions.md#{name})\n\n"
+            return f"## Definition\n\n[{heading.replace('`', '')}](../../guide/definitions.md#{anchor(heading)})\n\n"
     return ""
 
 

@@ -47,7 +47,7 @@ struct ChainTraits {
     bool seeded = false;           ///< the images depend on the set's seed
 };
 
-/// What a provenance stores of the warps and scrambles.
+/// Warps and scrambles as stored in the provenance.
 struct ChainRecord {
     std::vector<std::string> specs = {};  ///< with those options that differ from the defaults
     std::vector<std::string> files = {};  ///< files that they read

@@ -37,8 +37,8 @@ std::vector<TopicGroup> topic_groups();
 /// All terms of the glossary, with their other names, in lower case.
 std::vector<std::string> glossary_terms();
 
-/// Paragraph of the glossary about a term or another name of it; empty if there is none. Ignores
-/// case and the s of a plural.
+/// Glossary paragraph for a term or one of its other names; empty for unknown words. Ignores case
+/// and the s of a plural.
 std::string glossary_entry(std::string_view word);
 
 /// Equivalents of a name in another package (latinhypercube, qmc.Halton), from the page
