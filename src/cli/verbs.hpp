@@ -60,8 +60,8 @@ std::string typed_option(const std::string& name, const std::string& value, bool
 /// Whether the points depend on the seed.
 bool seed_matters(const Generator& generator, const Provenance& from);
 
-/// Options of a set's generator that are not at their defaults, such as "scramble=owen", except long
-/// ones and those that the generator decided.
+/// Options of a set's generator that are not at their defaults, such as "scramble=owen", except
+/// long ones and those that the generator decided.
 /// @param typed command or spec that made the set; empty if unknown
 std::vector<std::string> changed_options(const Provenance& from, const Generator& generator,
                                          std::string_view typed);

@@ -192,13 +192,10 @@ std::string comparison_of(std::span<const Set> sets) {
     if (sets.size() > 1)
         out += fmt::format(
             "<p class=\"note\">★ marks the set that is better than all others; ↓ lower is better, "
-            "↑ "
-            "higher is better. “a to b” are certain bounds of a value that is not known exactly; "
-            "“a "
-            "± b” is the mean of several sets with its standard error, and means count as "
-            "different "
-            "if the intervals of two standard errors around them do not overlap. Errors of "
-            "integrands are shown without sign, for several sets as root mean square.{}</p>\n",
+            "↑ higher is better. “a to b” are certain bounds of a value that is not known exactly; "
+            "“a ± b” is the mean of several sets with its standard error, and means count as "
+            "different if the intervals of two standard errors around them do not overlap. Errors "
+            "of integrands are shown without sign, for several sets as root mean square.{}</p>\n",
             several ? "" : " With one set of each sampler, a difference may be due to chance.");
     return out + "</section>\n";
 }

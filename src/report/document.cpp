@@ -44,7 +44,8 @@ Json measurement_json(const Measurement& m) {
 
 constexpr std::size_t most_shown = 9;  ///< longest list that is shown on one line
 
-/// Six significant digits; integers below 1e15, and the integral parts of numbers below 1e9, in full.
+/// A number with six significant digits; integers below 1e15, and the integral parts of numbers
+/// below 1e9, are in full.
 std::string readable(double x) {
     if (x == 0) return "0";  // also for -0
     const double size = std::abs(x);

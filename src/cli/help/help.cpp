@@ -188,9 +188,8 @@ HelpPage page_of_program(HelpPage::Style style) {
         for (const Topic* topic : group.topics) page.entry(topic->name, topic->summary);
     }
     page.paragraph(
-        "'stipple help WORD' explains a topic, a verb, a unit, a term of the field, or what "
-        "another\n"
-        "package calls something; 'stipple list' names all units.");
+        "'stipple help WORD' explains a topic, a verb, a unit, a term of the field, or what\n"
+        "another package calls something; 'stipple list' names all units.");
     if (page.for_man()) {
         page.section("Exit status");
         add_exit_codes(page);

@@ -9,9 +9,9 @@
 namespace stipple::cli {
 
 /// Markdown of a page as plain text. Code is indented by four blanks, and code within a sentence is
-/// quoted if it has blanks; links keep their words alone, with the `stipple help` command of their page after "See"; after
-/// "Read on:" they become that command; pictures, comments and inserted tables are left out.
-/// Headings and other tables stay as they are.
+/// quoted if it has blanks. Links keep their words, followed after "See" by the `stipple help`
+/// command of the page; after "Read on:" they become that command. Pictures, comments and inserted
+/// tables are left out. Headings and other tables stay as they are.
 std::string plain_page(std::string_view page);
 
 }  // namespace stipple::cli
