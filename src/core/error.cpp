@@ -2,6 +2,7 @@
 #include "core/error.hpp"
 
 #include <new>
+#include <stdexcept>
 #include <string_view>
 #include <system_error>
 
@@ -14,6 +15,8 @@ Error caught_error() {
         return e;
     } catch (const std::bad_alloc&) {
         return {ErrorKind::limit, "out of memory"};
+    } catch (const std::length_error&) {  // more elements than a vector can have
+        return {ErrorKind::limit, "out of memory"};
     } catch (const std::exception& e) {
         const auto* failed = dynamic_cast<const std::system_error*>(&e);
         const bool thread =
@@ -23,6 +26,16 @@ Error caught_error() {
             return {ErrorKind::limit, "cannot start a thread",
                     "the limits (ulimit) may be too low; use fewer --threads"};
         return {ErrorKind::io, fmt::format("internal error: {}", e.what())};
+    }
+}
+
+void throw_to_caller() {
+    try {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw caught_error();
+    } catch (const std::length_error&) {
+        throw caught_error();
     }
 }
 

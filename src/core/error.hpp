@@ -30,4 +30,8 @@ template <class... Args>
 /// std::exception.
 Error caught_error();
 
+/// Throws the exception being handled again, as an Error if memory was lacking. Handler of the
+/// public calls; what a caller's own functions throw passes.
+[[noreturn]] void throw_to_caller();
+
 }  // namespace stipple

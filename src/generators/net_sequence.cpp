@@ -250,6 +250,11 @@ std::unique_ptr<Sequence> owen_sequence(const BinaryMatrices& matrices, std::uin
     return sequence_of(
         [net = BinaryNet(matrices), owen](std::uint64_t first, std::span<double> rows) {
             const std::size_t d = net.dimension();
+            if (rows.size() == d) {
+                for (std::size_t k = 0; k < d; ++k)
+                    rows[k] = fraction_to_unit(owen[k].of(net.word(first, k)));
+                return;
+            }
             std::vector<std::uint64_t> words(std::max<std::size_t>(1, block_words / d) * d);
             for (std::size_t at = 0; at < rows.size(); at += words.size()) {
                 const auto block = std::span(words).first(std::min(words.size(), rows.size() - at));

@@ -13,7 +13,8 @@
 
 namespace stipple {
 
-void write_report(const std::string& path, std::span<const NamedSet> sets, const RunContext& run) {
+void write_report(const std::string& path, std::span<const NamedSet> sets,
+                  const RunContext& run) try {
     if (sets.empty() || sets.size() > page::most_sets)
         fail(ErrorKind::usage, "a report compares 1 to {} sets; {} are given", page::most_sets,
              sets.size());
@@ -37,6 +38,8 @@ void write_report(const std::string& path, std::span<const NamedSet> sets, const
     }
     io::Output output(path, run.stop);
     if (output.write(page::to_html(all))) output.commit();
+} catch (...) {
+    throw_to_caller();
 }
 
 }  // namespace stipple

@@ -73,18 +73,22 @@ std::vector<std::string> scramble_names() { return names_of_units(scrambles::all
 std::vector<std::string> analyzer_names() { return names_of_units(analyzers::all()); }
 
 PointSet generate(std::string_view text, const Request& request, const Settings& settings,
-                  const RunContext& run) {
+                  const RunContext& run) try {
     const Spec spec = spec_without_coordinates(text);
     const Generator& generator = find_generator(spec.name);
     return generate(generator, request, merged(spec, generator.options, settings), run);
+} catch (...) {
+    throw_to_caller();
 }
 
 Report analyze(std::string_view text, const PointSet& points, const Settings& settings,
-               const RunContext& run) {
+               const RunContext& run) try {
     const Spec spec = spec_without_coordinates(text);
     const Analyzer& analyzer = find_analyzer(spec.name);
     if (!points.domain) return analyze(text, placed(points), settings, run);
     return analyze(analyzer, points, merged(spec, analyzer.options, settings), run);
+} catch (...) {
+    throw_to_caller();
 }
 
 // ---------------------------------------------------------------- samples one by one
@@ -96,7 +100,32 @@ struct Sampler::State {
     std::mutex in_turn;  ///< held to fill rows without random access
 };
 
-Sampler::Sampler(std::string_view text, const Request& request)
+namespace {
+
+/// Largest count that the generator accepts, at least `known`.
+std::uint64_t largest_count(const Generator& generator, Request request, const Values& options,
+                            std::uint64_t known) {
+    const auto accepts = [&](std::uint64_t count) {
+        request.count = count;
+        try {
+            plan_for(generator, request, options);
+        } catch (const Error&) {
+            return false;
+        }
+        return true;
+    };
+    std::uint64_t refused = generator.traits.max_index - request.start + 1;
+    if (accepts(refused - 1)) return refused - 1;
+    while (refused - known > 1) {
+        const std::uint64_t middle = known + (refused - known) / 2;
+        (accepts(middle) ? known : refused) = middle;
+    }
+    return known;
+}
+
+}  // namespace
+
+Sampler::Sampler(std::string_view text, const Request& request) try
     : state_(std::make_unique<State>()) {
     const Spec spec = spec_without_coordinates(text);
     const Generator& generator = find_generator(spec.name);
@@ -108,9 +137,12 @@ Sampler::Sampler(std::string_view text, const Request& request)
         fail(ErrorKind::usage, "a Sampler gives points of the unit cube; leave out the bounds");
     const Values values = spec.values(generator.options);
     state_->plan = plan_for(generator, request, values);
+    const std::uint64_t count = state_->plan.count;
     state_->end =
-        generator.traits.prefix ? generator.traits.max_index - request.start : state_->plan.count;
+        generator.traits.prefix ? largest_count(generator, request, values, count) : count;
     state_->sequence = generator.sequence(state_->plan, values, {});
+} catch (...) {
+    throw_to_caller();
 }
 Sampler::Sampler(Sampler&&) noexcept = default;
 Sampler& Sampler::operator=(Sampler&&) noexcept = default;
@@ -131,27 +163,35 @@ void Sampler::fill(std::uint64_t first, std::span<double> rows) const {
 
 // ---------------------------------------------------------------- warps
 
-PointSet warp(std::string_view spec, const PointSet& points, const RunContext& run) {
+PointSet warp(std::string_view spec, const PointSet& points, const RunContext& run) try {
     return warped_set(on_its_domain(points), parse_spec(spec), false, run);
+} catch (...) {
+    throw_to_caller();
 }
 
-PointSet warp_back(std::string_view spec, const PointSet& points, const RunContext& run) {
+PointSet warp_back(std::string_view spec, const PointSet& points, const RunContext& run) try {
     return warped_set(on_its_domain(points), parse_spec(spec), true, run);
+} catch (...) {
+    throw_to_caller();
 }
 
 std::string domain_of(const PointSet& points) { return placed(points).domain->spec(); }
 
-DomainPtr domain_named(std::string_view spec, std::size_t dimension, const RunContext& run) {
+DomainPtr domain_named(std::string_view spec, std::size_t dimension, const RunContext& run) try {
     return parse_domain(spec, dimension, run);
+} catch (...) {
+    throw_to_caller();
 }
 
 double measure_of(const PointSet& points) { return placed(points).domain->measure(); }
 
-std::vector<double> densities(const PointSet& points) {
+std::vector<double> densities(const PointSet& points) try {
     const DomainPtr domain = on_its_domain(points).domain;
     std::vector<double> density(points.count());
     for (std::size_t i = 0; i < density.size(); ++i) density[i] = domain->density(points[i]);
     return density;
+} catch (...) {
+    throw_to_caller();
 }
 
 struct Warper::State : WarpChain {
@@ -172,28 +212,34 @@ Warper::~Warper() = default;
 std::size_t Warper::dimension_in() const { return state_->dimension_in(); }
 std::size_t Warper::dimension_out() const { return state_->dimension_out(); }
 
-std::vector<double> Warper::forward(std::span<const double> rows) const {
+std::vector<double> Warper::forward(std::span<const double> rows) const try {
     require_rows(rows, dimension_in());
     for (std::size_t i = 0; i < rows.size(); ++i)
         if (!(rows[i] >= 0 && rows[i] <= 1))
             fail(ErrorKind::input, "number {} is {}, outside [0, 1]", i, rows[i]);
     return state_->forward({rows.begin(), rows.end()});
+} catch (...) {
+    throw_to_caller();
 }
 
-std::vector<double> Warper::inverse(std::span<const double> rows) const {
+std::vector<double> Warper::inverse(std::span<const double> rows) const try {
     require_rows(rows, dimension_out());
     return state_->inverse({rows.begin(), rows.end()});
+} catch (...) {
+    throw_to_caller();
 }
 
-std::vector<double> Warper::density(std::span<const double> rows) const {
+std::vector<double> Warper::density(std::span<const double> rows) const try {
     require_rows(rows, dimension_out());
     return state_->density(rows);
+} catch (...) {
+    throw_to_caller();
 }
 
 // ---------------------------------------------------------------- files
 
 void write(const std::string& path, std::span<const PointSet> sets, const WriteOptions& options,
-           const RunContext& run) {
+           const RunContext& run) try {
     Target target{.path = path,
                   .header = options.header,
                   .meta = options.meta,
@@ -205,6 +251,8 @@ void write(const std::string& path, std::span<const PointSet> sets, const WriteO
     std::vector<PointSet> copies;
     for (const PointSet& set : sets) copies.push_back(on_its_domain(set));
     write_sets(std::move(copies), target, run);
+} catch (...) {
+    throw_to_caller();
 }
 
 void write(const std::string& path, const PointSet& points, const WriteOptions& options,
@@ -213,7 +261,7 @@ void write(const std::string& path, const PointSet& points, const WriteOptions& 
 }
 
 std::vector<PointSet> read_sets(const std::string& path, const ReadFileOptions& options,
-                                const RunContext& run) {
+                                const RunContext& run) try {
     ReadOptions inner{.source = path, .densities = true};
     if (options.dimension > 0) inner.dimension = options.dimension;
     inner.single = options.single;
@@ -226,6 +274,8 @@ std::vector<PointSet> read_sets(const std::string& path, const ReadFileOptions& 
             set.domain = parse_domain(domain, set.dimension(), run);
     }
     return sets;
+} catch (...) {
+    throw_to_caller();
 }
 
 PointSet read(const std::string& path, const ReadFileOptions& options, const RunContext& run) {

@@ -19,7 +19,7 @@ std::optional<double> known(const std::optional<double>& value) {
 
 }  // namespace
 
-std::vector<StudyValue> study(const Study& wanted, const RunContext& run) {
+std::vector<StudyValue> study(const Study& wanted, const RunContext& run) try {
     const Sweep sweep({.generators = wanted.generators,
                        .counts = wanted.counts,
                        .dimensions = wanted.dimensions,
@@ -39,6 +39,8 @@ std::vector<StudyValue> study(const Study& wanted, const RunContext& run) {
                 values.push_back({row.generator, row.measure, row.dimension, row.count, row.seed,
                                   row.key, known(row.value), row.reason});
     return values;
+} catch (...) {
+    throw_to_caller();
 }
 
 std::vector<StudyMean> means_of(std::span<const StudyValue> values, double confidence) {

@@ -60,8 +60,64 @@ TEST(Api, ASamplerGivesThePointsOfTheSet) {
     const Sampler ends("jittered", {.count = 16, .dimension = 2});
     EXPECT_EQ(error_of([&] { ends.fill(7, rows); }),
               "usage: points 7 to 16 are beyond the last one, which is 15");
+    const Sampler last("faure", {.dimension = 7});  // 17 digits in base 7
+    EXPECT_EQ(error_of([&] { last.fill(232630513987207, std::span(rows).first(7)); }),
+              "usage: points 232630513987207 to 232630513987207 are beyond the last one, which is "
+              "232630513987206");
+    EXPECT_EQ(error_of([&] { last.fill(232630513987206, std::span(rows).first(7)); }), "");
     EXPECT_NE(error_of([] { Sampler("poisson-disk"); }), "");
     EXPECT_NE(error_of([] { Sampler("random", {.bounds = Box{{0}, {2}}}); }), "");
+}
+
+TEST(Api, PointsOneByOneAreThoseOfABlock) {
+    std::vector<std::string> specs{
+        "sobol:scramble=owen",          "sobol:scramble=matrix",     "sobol:order=natural",
+        "sobol:scramble=digital-shift", "halton:scramble=owen",      "halton:scramble=permutation",
+        "halton:scramble=faure",        "halton:scramble=reverse",   "halton:leap=1000003",
+        "faure:scramble=owen",          "niederreiter:scramble=owen"};
+    for (const Generator& generator : generators::all())
+        if (generator.traits.sequence && generator.traits.prefix) specs.push_back(generator.name);
+    std::size_t compared = 0;
+    for (const std::string& spec : specs)
+        for (const std::size_t d : {1, 2, 7, 40})
+            for (const std::uint64_t first : {0ULL, 1000ULL, (1ULL << 31) - 20, (1ULL << 48) + 5}) {
+                std::vector<double> block(d * 40);
+                std::vector<double> single(d);
+                try {
+                    const Sampler sampler(spec, {.dimension = d, .seed = 9});
+                    sampler.fill(first, block);
+                    for (std::size_t i = 0; i < 40; ++i) {
+                        sampler.fill(first + i, single);
+                        ASSERT_TRUE(std::ranges::equal(single, std::span(block).subspan(i * d, d)))
+                            << spec << " point " << first + i << " d = " << d;
+                    }
+                    ++compared;
+                } catch (const Error& e) {
+                    ASSERT_EQ(e.kind(), ErrorKind::usage) << e.what();  // dimension or index
+                }
+            }
+    EXPECT_GT(compared, 150U);
+}
+
+TEST(Api, LackOfMemoryIsALimit) {
+    const auto kind_of = [](const auto& call) {
+        try {
+            call();
+        } catch (const Error& e) {
+            return e.kind();
+        }
+        return ErrorKind::cancelled;  // no error
+    };
+    // More numbers than a vector can have, so nothing is allocated.
+    const Request vast{.count = 1ULL << 50, .dimension = 2048};
+    EXPECT_EQ(kind_of([&] { generate("random", vast); }), ErrorKind::limit);
+    EXPECT_EQ(kind_of([&] { generate("sobol:scramble=owen", vast); }), ErrorKind::limit);
+#ifndef __SANITIZE_ADDRESS__  // it stops the program when memory is lacking
+    for (const std::string& name : generator_names()) {
+        const auto kind = kind_of([&] { generate(name, {.count = 1ULL << 50, .dimension = 2}); });
+        EXPECT_TRUE(kind == ErrorKind::limit || kind == ErrorKind::usage) << name;
+    }
+#endif
 }
 
 TEST(Api, AWarpGoesThereAndBack) {

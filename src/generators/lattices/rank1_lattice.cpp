@@ -192,7 +192,7 @@ Sequence::Fill multiples(std::uint64_t n, const std::vector<std::uint64_t>& z) {
         back.push_back(static_cast<double>(n) - multiple(points, z[m % d], n));
     return [=](std::uint64_t first, std::span<double> rows) {
         std::vector<double> residues;
-        for (std::size_t m = 0; m < back.size(); ++m)
+        for (std::size_t m = 0; m < std::min(back.size(), rows.size()); ++m)
             residues.push_back(multiple(first + m / d, z[m % d], n));
         for (std::size_t at = 0; at < rows.size(); at += back.size())
             advance(back.data(), static_cast<double>(n), std::min(back.size(), rows.size() - at),

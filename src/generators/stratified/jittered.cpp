@@ -69,7 +69,8 @@ void place_in_rows(std::uint64_t n, bool centered, std::uint64_t first, std::spa
 void place_in_boxes(std::span<const std::uint64_t> sides, bool centered, std::uint64_t first,
                     std::span<double> rows) {
     const std::size_t d = sides.size();
-    const std::size_t most = 1 + 4096 / d;  // number of points at a time, stored axis after axis
+    // Number of points at a time, stored axis after axis.
+    const std::size_t most = std::min(1 + 4096 / d, rows.size() / d);
     std::vector<double> low(most * d);
     for (std::size_t done = 0; done < rows.size() / d; done += most) {
         const std::size_t count = std::min(most, rows.size() / d - done);

@@ -90,7 +90,10 @@ void BinaryNet::fill_rows(std::uint64_t first, std::span<Number> rows) const {
     }
 }
 
-void BinaryNet::fill(std::uint64_t first, std::span<double> rows) const { fill_rows(first, rows); }
+void BinaryNet::fill(std::uint64_t first, std::span<double> rows) const {
+    if (rows.size() != dimension_) return fill_rows(first, rows);
+    for (std::size_t k = 0; k < dimension_; ++k) rows[k] = fraction_to_unit(word(first, k));
+}
 void BinaryNet::fill(std::uint64_t first, std::span<std::uint64_t> rows) const {
     fill_rows(first, rows);
 }

@@ -14,6 +14,7 @@
 // Promise  a coordinate has exactly the first 53 digits of its fraction; the others are truncated.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -44,6 +45,16 @@ class BinaryNet {
     /// Fills `rows` with points first, first + 1, ...
     void fill(std::uint64_t first, std::span<double> rows) const;
     void fill(std::uint64_t first, std::span<std::uint64_t> rows) const;
+
+    /// Coordinate k of point i as a fraction. For rows one by one; fill() costs less for many.
+    [[nodiscard]] std::uint64_t word(std::uint64_t i, std::size_t k) const {
+        const std::uint64_t h = i >> low_digits_;
+        const std::uint64_t row = i & ((std::uint64_t{1} << low_digits_) - 1);
+        std::uint64_t sum = low_[row * dimension_ + k] ^ shift_[k];
+        for (std::uint64_t gray = h ^ (h >> 1); gray != 0; gray &= gray - 1)
+            sum ^= carry(std::countr_zero(gray))[k];
+        return sum;
+    }
 
   private:
     template <class Number>

@@ -37,54 +37,80 @@ inline std::uint32_t flips(std::uint32_t random, std::uint32_t group) {
     return flip;
 }
 
-/// Flips for the upper thirty digits; prefixes of up to 25 digits have distinct hashes.
-inline std::uint32_t upper_flips(const BinaryOwen::Keys& keys, std::uint32_t x) {
-    std::uint32_t flip = 0;
-#pragma GCC unroll 6
-    for (int g = 0; g < upper_groups; ++g) {
-        const int shift = upper_bits - group_digits * (g + 1);
-        const std::uint32_t prefix = g == 0 ? 0 : x >> (shift + group_digits);
-        flip |= flips(mixed(prefix ^ keys.before[static_cast<std::size_t>(g)],
-                            keys.between[static_cast<std::size_t>(g)]),
-                      (x >> shift) & group_mask)
-                << shift;
-    }
-    return flip;
+/// Lowest bit of a group in its part; the upper part has thirty digits, the lower one 25.
+constexpr std::uint32_t shift_of(std::size_t g) {
+    const int after = g < upper_groups ? upper_groups - 1 - static_cast<int>(g)
+                                       : static_cast<int>(all_groups) - 1 - static_cast<int>(g);
+    return static_cast<std::uint32_t>(group_digits * after);
 }
 
-/// Flips for the lower digits; `above` is the hash of the upper part. The multiplier differs
-/// between groups, so that prefixes with equal hashes in one group differ in the next.
-inline std::uint32_t lower_flips(const BinaryOwen::Keys& keys, std::uint32_t above,
-                                 std::uint32_t x) {
-    std::uint32_t flip = 0;
-#pragma GCC unroll 5
-    for (int g = 0; g < lower_groups; ++g) {
-        const int shift = lower_bits - group_digits * (g + 1);
-        const std::uint32_t prefix = g == 0 ? 0 : x >> (shift + group_digits);
-        const auto k = static_cast<std::size_t>(upper_groups + g);
-        const std::uint32_t node =
-            (prefix ^ keys.before[k]) + above * (2 * keys.before[static_cast<std::size_t>(g)] + 1);
-        flip |= flips(mixed(node, keys.between[k]), (x >> shift) & group_mask) << shift;
-    }
-    return flip;
+/// Flips of group g, in its place in `part`; `above` is the hash of the upper part. Prefixes of up
+/// to 25 digits have distinct hashes. Longer ones with equal hashes in one group differ in the
+/// next, because its factor does.
+inline std::uint32_t group_flips(const BinaryOwen::Keys& keys, std::size_t g, std::uint32_t shift,
+                                 std::uint32_t part, std::uint32_t above) {
+    const std::uint32_t prefix = part >> shift >> group_digits;
+    const std::uint32_t node = (prefix ^ keys.before[g]) + above * keys.factor[g];
+    return flips(mixed(node, keys.between[g]), (part >> shift) & group_mask) << shift;
+}
+
+inline std::uint32_t upper_part(std::uint64_t x) {
+    return static_cast<std::uint32_t>(x >> (64 - upper_bits));
+}
+inline std::uint32_t lower_part(std::uint64_t x) {
+    return static_cast<std::uint32_t>(x >> (64 - upper_bits - lower_bits)) &
+           ((1U << lower_bits) - 1);
+}
+inline std::uint64_t joined(std::uint32_t high, std::uint32_t low) {
+    return static_cast<std::uint64_t>(high) << (64 - upper_bits) |
+           (static_cast<std::uint64_t>(low >> 2) << 11);
+}
+inline std::uint32_t hash_above(const BinaryOwen::Keys& keys, std::uint32_t high) {
+    return mixed(high ^ keys.before[all_groups], keys.between[all_groups]);
 }
 
 STIPPLE_WIDE void scramble(const BinaryOwen::Keys& keys, std::uint64_t* x, std::size_t count) {
     std::uint32_t high[block_points];
     std::uint32_t low[block_points];
     for (std::size_t i = 0; i < count; ++i) {
-        high[i] = static_cast<std::uint32_t>(x[i] >> (64 - upper_bits));
-        low[i] = static_cast<std::uint32_t>(x[i] >> (64 - upper_bits - lower_bits)) &
-                 ((1U << lower_bits) - 1);
+        high[i] = upper_part(x[i]);
+        low[i] = lower_part(x[i]);
     }
     for (std::size_t i = 0; i < count; ++i) {
-        low[i] ^= lower_flips(
-            keys, mixed(high[i] ^ keys.before[all_groups], keys.between[all_groups]), low[i]);
-        high[i] ^= upper_flips(keys, high[i]);
+        const std::uint32_t above = hash_above(keys, high[i]);
+        std::uint32_t flip = 0;
+#pragma GCC unroll 5
+        for (std::size_t g = upper_groups; g < all_groups; ++g)
+            flip |= group_flips(keys, g, shift_of(g), low[i], above);
+        low[i] ^= flip;
+        flip = 0;
+#pragma GCC unroll 6
+        for (std::size_t g = 0; g < upper_groups; ++g)
+            flip |= group_flips(keys, g, shift_of(g), high[i], 0);
+        high[i] ^= flip;
     }
-    for (std::size_t i = 0; i < count; ++i)
-        x[i] = static_cast<std::uint64_t>(high[i]) << (64 - upper_bits) |
-               (static_cast<std::uint64_t>(low[i] >> 2) << 11);
+    for (std::size_t i = 0; i < count; ++i) x[i] = joined(high[i], low[i]);
+}
+
+/// All groups of one number at once.
+STIPPLE_WIDE std::uint64_t scrambled(const BinaryOwen::Keys& keys, std::uint64_t x) {
+    constexpr std::size_t groups = 12;
+    static constexpr std::array<std::uint32_t, groups> shifts{
+        shift_of(0), shift_of(1), shift_of(2), shift_of(3), shift_of(4), shift_of(5),
+        shift_of(6), shift_of(7), shift_of(8), shift_of(9), shift_of(10)};
+    const std::uint32_t high = upper_part(x);
+    const std::uint32_t low = lower_part(x);
+    const std::uint32_t above = hash_above(keys, high);
+    std::uint32_t part[groups];
+    std::uint32_t flip[groups];
+    for (std::size_t g = 0; g < groups; ++g) part[g] = g < upper_groups ? high : low;
+    for (std::size_t g = 0; g < groups; ++g)
+        flip[g] = group_flips(keys, g, shifts[g], part[g], above);
+    std::uint32_t upper = 0;
+    std::uint32_t lower = 0;
+    for (std::size_t g = 0; g < upper_groups; ++g) upper |= flip[g];
+    for (std::size_t g = upper_groups; g < all_groups; ++g) lower |= flip[g];
+    return joined(high ^ upper, low ^ lower);
 }
 
 }  // namespace
@@ -114,11 +140,15 @@ BinaryOwen::BinaryOwen(std::uint64_t seed, std::size_t coordinate) : keys_{} {
         keys_.before[g] = static_cast<std::uint32_t>(bits >> 32);
         keys_.between[g] = static_cast<std::uint32_t>(bits);
     }
+    for (std::size_t g = upper_groups; g < all_groups; ++g)
+        keys_.factor[g] = 2 * keys_.before[g - upper_groups] + 1;
 }
 
 void BinaryOwen::apply(std::span<std::uint64_t> fractions) const {
     for (std::size_t i = 0; i < fractions.size(); i += block_points)
         scramble(keys_, fractions.data() + i, std::min(block_points, fractions.size() - i));
 }
+
+std::uint64_t BinaryOwen::of(std::uint64_t fraction) const { return scrambled(keys_, fraction); }
 
 }  // namespace stipple

@@ -51,6 +51,7 @@ RadicalInverse::RadicalInverse(std::uint32_t base) : RadicalInverse(base, {}) {}
 RadicalInverse::RadicalInverse(std::uint32_t base, std::vector<std::uint32_t> permutation)
     : base_(base), block_(base), permutation_(std::move(permutation)) {
     while (block_ * base <= largest_digit_table) block_ *= base;
+    last_power_ = exact_limit / block_;
     if (block_ == base && permutation_.empty()) return;
     for (std::uint64_t i = 0; i < block_; ++i) {
         // A digit 1 above the block keeps the leading zeros of i; the division removes it again.
@@ -60,12 +61,25 @@ RadicalInverse::RadicalInverse(std::uint32_t base, std::vector<std::uint32_t> pe
 }
 
 double RadicalInverse::of(std::uint64_t index) const {
+    std::uint64_t digits = 0;  // as reversed(), a block of digits at a time
+    std::uint64_t power = 1;
+    std::uint64_t rest = index;
+    for (; rest > 0 && power <= last_power_; rest /= block_, power *= block_) {
+        const std::uint64_t low = rest % block_;
+        digits = digits * block_ +
+                 (reversed_.empty() ? low : static_cast<std::uint64_t>(reversed_[low]));
+    }
+    if (rest == 0) return ratio(digits, power);
     const Reversed all = reversed(index, base_, permutation_);
     return ratio(all.digits, all.power);
 }
 
 void RadicalInverse::fill(std::uint64_t first, std::size_t count, double* out,
                           std::size_t stride) const {
+    if (count == 1) {
+        *out = of(first);
+        return;
+    }
     while (count > 0) {
         const std::uint64_t start = first % block_;
         const auto run = std::min<std::size_t>(count, block_ - start);

@@ -40,6 +40,7 @@ class RadicalInverse {
   private:
     std::uint64_t base_;
     std::uint64_t block_;           ///< b^t, the number of values of the t low digits
+    std::uint64_t last_power_ = 0;  ///< largest power of the base that a block's still fits on
     std::vector<double> reversed_;  ///< reversed low digits; empty if t = 1 without permutation
     std::vector<std::uint32_t> permutation_;  ///< permutation of the digits; empty for none
 };
