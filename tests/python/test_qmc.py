@@ -282,6 +282,9 @@ def test_random_cd_finds_less_than_scipys():
     centred = [qmc.LatinHypercube(4, optimization="random-CD", scramble=False, effort=effort).random(30) for effort in (0.001, 0.02)]
     assert np.allclose(np.sort(centred[0], axis=0), (np.arange(30)[:, None] + 0.5) / 30)
     assert qmc.discrepancy(centred[1]) < qmc.discrepancy(centred[0])
+    many = [qmc.LatinHypercube(2, optimization=how, seed=1).random(501) for how in (None, "random-cd")]
+    assert qmc.discrepancy(many[1]) < 0.5 * qmc.discrepancy(many[0])
+    assert np.array_equal(np.sort(many[1], axis=0), np.sort(many[0], axis=0))  # coordinates exchanged
 
 
 @pytest.mark.parametrize("optimization", ["random-cd", "lloyd"])
