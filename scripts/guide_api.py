@@ -119,9 +119,10 @@ def python_page():
                 known[node.name] = node
     shown = [name for name in public if name in known] + ["Report", "Picture", "Page", "Sequence", "Study"]
     text += "".join(python_entry(known[name], 3) for name in dict.fromkeys(shown))
-    text += "\n## stipple.qmc\n"
-    for node in ast.parse((folder / "qmc.py").read_text(encoding="utf-8")).body:
-        if isinstance(node, ast.ClassDef):
+    qmc = ast.parse((folder / "qmc.py").read_text(encoding="utf-8"))
+    text += f"\n## stipple.qmc\n\n```text\n{ast.get_docstring(qmc)}\n```\n"
+    for node in qmc.body:
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and not node.name.startswith("_"):
             text += python_entry(node, 3)
     return text
 

@@ -323,6 +323,8 @@ WRONG = {
     "d must be a non-negative integer value": lambda: qmc.Sobol(-1),
     "d must be a non-negative integer value ": lambda: qmc.PoissonDisk(2.5),
     "Invalid number of workers: 0": lambda: qmc.Halton(2).random(3, workers=0),
+    "start_index must be a non-negative integer": lambda: qmc.van_der_corput(3, start_index=-1),
+    "radius must be above 0, not 'a'": lambda: qmc.PoissonDisk(2, radius="a"),
     "radius must be above 0, not nan": lambda: qmc.PoissonDisk(2, radius=float("nan")),
     "Sample is empty": lambda: qmc.discrepancy(np.empty((0, 2))),
     "Sample is not in unit hypercube": lambda: qmc.discrepancy([[0.5, float("nan")]]),

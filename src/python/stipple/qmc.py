@@ -234,14 +234,15 @@ def van_der_corput(n: int, base: int = 2, *, start_index: int = 0, scramble: boo
     scramble  permute the digits at random, each by the digits before it
 
     Source: stipple.describe("van-der-corput"), stipple.describe("owen"). Raises ValueError for a
-    base below 2 or a wrong n.
+    base below 2, a wrong n or start_index.
     """
     threads = _threads(workers)
     if base < 2:
         raise ValueError("'base' must be at least 2")
     if _whole("n", n) == 0:
         return np.empty(0)
-    x = generate("van-der-corput", n, 1, base=base, start=start_index, threads=threads)
+    start = _whole("start_index", start_index)
+    x = generate("van-der-corput", n, 1, base=base, start=start, threads=threads)
     if scramble:
         x = _scrambled(x, "owen", base=[base], seed=_first_seed(seed, rng), threads=threads)
     return np.array(x).ravel()
@@ -342,6 +343,8 @@ class Engine(QMCEngine):
 
 
 class _Scrambled(Engine):
+    """A sequence whose option scramble is a word, but True or False in SciPy."""
+
     def __init__(self, d: int, *, scramble: bool | str = True, **options: Any) -> None:
         self.scramble = scramble
         words = {True: "owen", False: "none"}
@@ -512,7 +515,7 @@ class PoissonDisk(Engine):
         if hypersphere not in ("volume", "surface"):
             raise ValueError(f"{hypersphere!r} is not a valid hypersphere sampling method. It must "
                              "be one of {'volume', 'surface'}")
-        if not radius > 0:
+        if not (isinstance(radius, numbers.Real) and radius > 0):
             raise ValueError(f"radius must be above 0, not {radius!r}")
         self.radius = radius
         bounds = {"l_bounds": l_bounds, "u_bounds": u_bounds}
