@@ -43,6 +43,10 @@ def test_sequences_go_on():
     assert np.array_equal(np.concatenate([x, rest]),
                           stipple.generate("sobol", 128, 3, scramble="owen", seed=1))
     assert np.array_equal(qmc.Sobol(3, seed=1).fast_forward(100).random(28), rest[36:])
+    cubes = qmc.LatinHypercube(2, seed=1)
+    sets = [cubes.random(5), cubes.random(5), cubes.random(5)]
+    assert np.array_equal(cubes.reset().fast_forward(5).fast_forward(0).random(5), sets[1])
+    assert np.array_equal(sets[2], stipple.generate("latin-hypercube", 5, 2, seed=3))
     plain = qmc.Halton(2, scramble=False).random(10)
     assert np.allclose(plain, scipy_qmc.Halton(2, scramble=False).random(10), atol=1e-15)
 
@@ -261,17 +265,30 @@ def test_poisson_disks_leave_no_room(d, radius, box):
     assert np.array_equal(engine.reset().random(1000), x) and engine.num_generated == len(x)
 
 
-@pytest.mark.parametrize("d, how", [(1, {}), (4, {"ncandidates": 20}), (2, {"hypersphere": "surface"})])
-def test_other_poisson_disks_are_bridsons(d, how):
-    engine = qmc.PoissonDisk(d, radius=0.2, seed=1, **how)
-    parts = [engine.random(2), engine.random(3), engine.fill_space()]
+@pytest.mark.parametrize("d, radius, how", [
+    (1, 0.01, {}), (1, 0.2, {}), (4, 0.3, {"ncandidates": 5}), (2, 0.02, {"hypersphere": "surface"}), (9, 1.2, {}),
+    (2, 0.3, {"hypersphere": "surface", "l_bounds": [0, -3], "u_bounds": [2, -1]}), (2, 2, {}),
+])
+def test_other_poisson_disks_are_bridsons(d, radius, how):
+    engine = qmc.PoissonDisk(d, radius=radius, seed=1, **how)
+    parts = [engine.random(1), engine.random(4), engine.fill_space()]
     x = np.concatenate(parts)
-    assert len(x) == engine.num_generated > 2 and pdist(x).min() >= 0.2 * (1 - 1e-6)
+    assert len(x) == engine.num_generated and (len(x) == 1 or pdist(x).min() >= radius)
+    assert (x >= how.get("l_bounds", 0)).all() and (x < how.get("u_bounds", 1)).all()
     assert engine.random(5).shape == engine.fill_space().shape == engine.random(0).shape == (0, d)
-    assert np.array_equal(engine.reset().random(2), parts[0])
-    assert np.array_equal(qmc.PoissonDisk(d, radius=0.2, seed=1, **how).random(2), parts[0])
+    assert np.array_equal(engine.reset().random(7), x[:7])
+    assert not np.array_equal(qmc.PoissonDisk(d, radius=radius, seed=2, **how).random(7), x[:7])
     with pytest.raises(ValueError, match="order: options of the generator need"):
-        qmc.PoissonDisk(d, order="random", **how)
+        qmc.PoissonDisk(d, radius=radius, order="random", **how)
+
+
+def test_bridsons_sets_are_about_as_dense_as_scipys():
+    for d, radius, hypersphere in ((1, 0.01, "volume"), (2, 0.05, "surface"), (4, 0.3, "volume"), (4, 0.3, "surface")):
+        ours, theirs = (len(each.PoissonDisk(d, radius=radius, hypersphere=hypersphere, seed=1).fill_space())
+                        for each in (qmc, scipy_qmc))
+        assert 0.9 * theirs < ours < 2.2 * theirs
+    x = np.sort(qmc.PoissonDisk(1, radius=0.001, seed=1).fill_space()[:, 0])
+    assert 500 < len(x) < 1001 and (np.diff(x) > 0.002).mean() < 0.03  # room for a further point
 
 
 def test_random_cd_finds_less_than_scipys():
@@ -291,9 +308,9 @@ def test_random_cd_finds_less_than_scipys():
 @pytest.mark.parametrize("engine", ENGINES)
 def test_optimized_sets_are_made_again(engine, optimization):
     one = engine(2, seed=3, optimization=optimization)
-    x = one.random(25)
-    assert np.array_equal(one.reset().random(25), x)
-    assert np.array_equal(engine(2, seed=3, optimization=optimization).random(25), x)
+    x = one.random(16)
+    assert np.array_equal(one.reset().random(16), x)
+    assert np.array_equal(engine(2, seed=3, optimization=optimization).random(16), x)
 
 
 @pytest.mark.parametrize("engine", [*ENGINES, lambda d, **how: qmc.PoissonDisk(d, hypersphere="surface", **how)])
@@ -324,6 +341,7 @@ WRONG = {
     "d must be a non-negative integer value ": lambda: qmc.PoissonDisk(2.5),
     "Invalid number of workers: 0": lambda: qmc.Halton(2).random(3, workers=0),
     "start_index must be a non-negative integer": lambda: qmc.van_der_corput(3, start_index=-1),
+    "ncandidates must be 1 or more": lambda: qmc.PoissonDisk(2, ncandidates=0),
     "radius must be above 0, not 'a'": lambda: qmc.PoissonDisk(2, radius="a"),
     "radius must be above 0, not nan": lambda: qmc.PoissonDisk(2, radius=float("nan")),
     "Sample is empty": lambda: qmc.discrepancy(np.empty((0, 2))),

@@ -34,6 +34,7 @@ from scipy.stats.qmc import QMCEngine, scale, update_discrepancy
 
 from . import _stipple
 from ._arrays import settings_of
+from ._bridson import Bridson
 from .calls import _how, analyze, generate
 from .calls import scramble as _scrambled
 from .units import find
@@ -435,9 +436,9 @@ class LatinHypercube(Engine):
     strength      2: also one point in each square of a grid of n squares, for each pair of
                   coordinates; n = p^2 for a prime p >= d - 1, otherwise a ValueError
     optimization  "random-cd": exchanges strata for a small centered discrepancy. For strength 1 and
-                  up to 500 points by stipple's own search, whose sets are mostly better than those of
-                  SciPy, which takes as long; effort=1 searches a hundred times longer, for up to
-                  10 000 points. Otherwise as for Engine
+                  up to 500 points by stipple's own search: mostly better sets than SciPy's, in the
+                  same time; effort=1 searches a hundred times longer, for up to 10 000 points.
+                  Otherwise as for Engine
     centered      deprecated: use scramble=False
     options       of the generator (optimize="maximin", sliced=4 ...), and those of Engine
 
@@ -487,8 +488,8 @@ class PoissonDisk(Engine):
 
     d             number of coordinates
     radius        smallest distance, in the unit of the bounds
-    hypersphere   "volume"; "surface" is SciPy's denser variant
-    ncandidates   of SciPy's algorithm
+    hypersphere   "volume"; "surface": denser, by Bridson's algorithm
+    ncandidates   of Bridson's algorithm
     optimization  as for Engine; it moves points
     l_bounds, u_bounds  the box, [0, 1)^d by default
     options       of the generator poisson-disk (order="random"), and those of Engine
@@ -496,14 +497,15 @@ class PoissonDisk(Engine):
     In two and three dimensions with hypersphere="volume", points are those of stipple's generator
     poisson-disk with this radius: a maximal set, which has no room for a further point, made by the
     first call. random(n) returns its next n points, in an order whose first points are well spread
-    already; fill_space() returns all that remain. Otherwise points are made by SciPy's class
-    (Bridson's algorithm), seeded by seed: it leaves gaps, but in many dimensions it makes a few
-    points with a small radius without filling space. stipple.generate("poisson-disk", d=4,
-    radius=0.3, bounded=True) makes maximal sets in up to six dimensions.
+    already; fill_space() returns all that remain. Otherwise points are made one by one by Bridson's
+    algorithm: random(n) is fast for small radii in many dimensions, too, but fill_space() leaves
+    gaps. (stipple.generate("poisson-disk", d=4, radius=0.3, bounded=True) makes maximal sets in up
+    to six dimensions.)
 
-    random(n) returns fewer than n points if there is no room for more. Raises ValueError for a
-    wrong radius, hypersphere or box. Source: stipple.describe("poisson-disk"); R. Bridson, SIGGRAPH
-    2007, doi:10.1145/1278780.1278807.
+    random(n) returns fewer than n points if there is no room for more.
+
+    Source: stipple.describe("poisson-disk"); R. Bridson 2007, doi:10.1145/1278780.1278807.
+    Raises ValueError for a wrong radius, hypersphere, number of candidates or box.
     """
 
     generator = "poisson-disk"
@@ -517,13 +519,15 @@ class PoissonDisk(Engine):
                              "be one of {'volume', 'surface'}")
         if not (isinstance(radius, numbers.Real) and radius > 0):
             raise ValueError(f"radius must be above 0, not {radius!r}")
-        self.radius = radius
-        bounds = {"l_bounds": l_bounds, "u_bounds": u_bounds}
-        self._bridson = {"radius": radius, "hypersphere": hypersphere, "ncandidates": ncandidates}
-        self._bridson |= {name: bound for name, bound in bounds.items() if bound is not None}
+        if _whole("ncandidates", ncandidates) == 0:
+            raise ValueError("ncandidates must be 1 or more")
+        self.radius, self.hypersphere, self.ncandidates = radius, hypersphere, ncandidates
         super().__init__(d, optimization=optimization, seed=seed, rng=rng, **options)
-        self._init_quad = {"d": d, **self._bridson, "optimization": optimization, **options}
-        box = _box(0 if l_bounds is None else l_bounds, 1 if u_bounds is None else u_bounds, d)
+        low, high = 0 if l_bounds is None else l_bounds, 1 if u_bounds is None else u_bounds
+        self.l_bounds, self.u_bounds = box = _box(low, high, d)
+        self._init_quad = {"d": d, "radius": radius, "hypersphere": hypersphere,
+                           "ncandidates": ncandidates, "optimization": optimization,
+                           "l_bounds": l_bounds, "u_bounds": u_bounds, **options}
         self._maximal = d in (2, 3) and hypersphere == "volume" and radius <= math.dist(*box)
         if options and not self._maximal:
             raise ValueError(f"{next(iter(options))}: options of the generator need two or three "
@@ -537,11 +541,10 @@ class PoissonDisk(Engine):
             return np.empty((n if math.isfinite(n) else 0, self.d))
         if not self._maximal:
             if self._made is None:
-                seed = {_SEED: self._first_seed}
-                self._made = _scipy.PoissonDisk(self.d, **seed, **self._bridson)
-            elif not self._made.sample_pool:  # SciPy would begin again, too near to its points
-                return np.empty((0, self.d))
-            return self._made.random(n).reshape(-1, self.d)
+                box = self.l_bounds, self.u_bounds
+                self._made = Bridson(box, self.radius, self.hypersphere == "surface",
+                                     self.ncandidates, self._first_seed)
+            return self._made.draw(n)
         if self._made is None:
             self._made = self._set(None, workers)
         first = self.num_generated
@@ -559,7 +562,7 @@ class PoissonDisk(Engine):
         return self._draw(_whole("n", n), workers)
 
     def fill_space(self, *, workers: int = 1) -> npt.NDArray[np.float64]:
-        """Points until there is no room (or, by SciPy's algorithm, until no candidate fits)."""
+        """Points until there is no room or, by Bridson's algorithm, until no candidate fits."""
         return self._draw(math.inf, workers)
 
     def fast_forward(self, n: int) -> PoissonDisk:
