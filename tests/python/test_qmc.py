@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 import copy
+import inspect
 import pickle
 import warnings
 from fractions import Fraction
@@ -7,6 +8,7 @@ from math import prod
 
 import numpy as np
 import pytest
+import scipy.stats._qmc
 from scipy import integrate, special, stats
 from scipy.sparse.csgraph import minimum_spanning_tree
 from scipy.spatial import KDTree
@@ -19,6 +21,23 @@ from stipple import qmc
 
 qmc_quad = getattr(integrate, "qmc_quad", None) or integrate._quadrature._qmc_quad
 ENGINES = [qmc.Sobol, qmc.Halton, qmc.LatinHypercube, qmc.PoissonDisk]
+
+
+def arguments(call):
+    """Names that can be passed without a keyword, and all names."""
+    parameters = inspect.signature(call).parameters
+    return [p.name for p in parameters.values() if p.kind is p.POSITIONAL_OR_KEYWORD], {*parameters}
+
+
+@pytest.mark.parametrize("name", scipy.stats._qmc.__all__)
+def test_calls_have_scipys_arguments(name):
+    ours, theirs = getattr(qmc, name), getattr(scipy_qmc, name)
+    methods = ["__init__", *(each for each in dir(theirs) if not each.startswith("_"))] if isinstance(theirs, type) else [None]
+    for method in methods:
+        pair = [call if method is None else getattr(call, method) for call in (ours, theirs)]
+        if callable(pair[1]):
+            (first, mine), (expected, all_theirs) = map(arguments, pair)
+            assert first[: len(expected)] == expected and all_theirs <= mine, method
 
 
 @pytest.mark.parametrize("engine", ENGINES)
