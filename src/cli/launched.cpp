@@ -55,7 +55,7 @@ Ranks& launched(std::string_view verb, const RunContext& run) {
     const std::uint64_t started = launched_ranks();
     if (started == 1) return *(joined() = std::make_unique<Ranks>());
     if (!has_mpi())
-        fail_with_hint(ErrorKind::usage, "build it where MPI is installed, or start one process",
+        fail_with_hint(ErrorKind::usage, "build it with -DSTIPPLE_MPI=ON, or start one process",
                        "{}: an MPI launcher started {} processes, and this build has no MPI", verb,
                        started);
     joined() = join_ranks(run.stop, request_stop);

@@ -78,7 +78,7 @@ TEST(Package, OfDebianAndAsArchiveAreWholeAndRun) {
     EXPECT_EQ(depends("stipple").find("libfftw3-double3") != std::string::npos, fftw);
     EXPECT_EQ(depends("libstipple-dev").find("libfftw3-dev") != std::string::npos, fftw);
     EXPECT_THAT(box.read("deb/usr/share/doc/stipple/copyright"),
-                HasSubstr(fftw ? "GPL-2" : "Copyright (C) 2010-2022 Max-Planck-Society"));
+                HasSubstr(fftw ? "GPL-2" : "Max-Planck-Society"));
     EXPECT_THAT(good(box.shell("dpkg-deb --contents made/stipple_*.deb")),
                 HasSubstr("-rwxr-xr-x root/root"));
     if (box.shell("test $(id -u) = 0").code == 0) expect_that_dpkg_takes_it(box);

@@ -5,7 +5,8 @@
 // for every width. Headers that the library needs are included before.
 
 #undef POCKETFFT_HDRONLY_H
-#include <pocketfft_hdronly.h>
+#undef PYTHONIC_INCLUDE_NUMPY_FFT_POCKETFFT_HPP  // the guard of Debian's copy
+#include POCKETFFT_HEADER
 
 inline std::complex<double>* as_complex(double* p) {
     return reinterpret_cast<std::complex<double>*>(p);
