@@ -52,6 +52,7 @@ void allow(unsigned threads) {
 
 void within_threads(const RunContext& run, const std::function<void()>& work) {
     const unsigned threads = run.thread_count();
+    if (threads == 1) return work();  // without oneTBB, which hangs in a forked process
     allow(threads);
     tbb::task_arena arena(static_cast<int>(threads));
     arena.execute(work);

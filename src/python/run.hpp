@@ -31,6 +31,13 @@ struct How {
     py::object progress;    ///< function called with the fraction done, or None
 };
 
+/// Whether a process that had already made calls has forked this one. The pool of oneTBB does not
+/// survive that: its threads are gone, but not its record of them.
+inline bool forked() {
+    static const pid_t first = getpid();
+    return first != getpid();
+}
+
 /// Issues the notes of the computation as Python warnings.
 void show(const std::vector<std::string>& notes);
 
@@ -46,7 +53,7 @@ auto released(const How& how, Work work) {
     std::mutex mutex;
     std::stop_source stop;
 
-    RunContext run{.threads = how.threads, .stop = stop.get_token()};
+    RunContext run{.threads = forked() ? 1 : how.threads, .stop = stop.get_token()};
     run.progress = [&](double share) { done = share; };
     run.warn = [&](const std::string& sentence) {
         const std::lock_guard lock(mutex);

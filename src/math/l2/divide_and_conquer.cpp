@@ -292,7 +292,7 @@ class Division {
 
     void solve_two(std::size_t r, std::size_t first, std::size_t middle, std::size_t last,
                    FixedSum& sum) {
-        if (last - first < many) {
+        if (last - first < many || run_.thread_count() == 1) {
             solve(r, first, middle, sum);
             return solve(r, middle, last, sum);
         }
