@@ -29,6 +29,12 @@ py::array array_of_vector(const std::vector<T>& numbers, std::vector<py::ssize_t
     return array_over(std::move(shape), first, std::move(owner));
 }
 
+template <class T>
+std::vector<T> vector_of(const py::array& array) {
+    const py::array_t<T, py::array::c_style | py::array::forcecast> numbers(array);
+    return {numbers.data(), numbers.data() + numbers.size()};
+}
+
 struct ItemToObject {
     py::object operator()(bool flag) const { return py::bool_(flag); }
     py::object operator()(std::int64_t number) const { return py::int_(number); }
@@ -103,6 +109,35 @@ py::object object_of(const nlohmann::ordered_json& value) {
     if (value.is_number_integer()) return py::int_(value.get<std::int64_t>());
     if (value.is_number()) return py::float_(value.get<double>());
     return py::none();
+}
+
+Report report_of(const py::dict& values) {
+    Report report;
+    for (const auto& [key, value] : values) {
+        const auto name = key.cast<std::string>();
+        if (py::isinstance<py::dict>(value)) {
+            report.add(name, report_of(value.cast<py::dict>()));
+        } else if (py::isinstance<py::array>(value)) {
+            const auto array = value.cast<py::array>();
+            if (array.ndim() == 2)
+                report.add(
+                    name, Grid{static_cast<std::size_t>(array.shape(0)),
+                               static_cast<std::size_t>(array.shape(1)), vector_of<double>(array)});
+            else if (array.dtype().kind() == 'i')
+                report.add(name, vector_of<std::int64_t>(array));
+            else
+                report.add(name, vector_of<double>(array));
+        } else if (py::isinstance<py::bool_>(value)) {
+            report.add(name, value.cast<bool>());
+        } else if (py::isinstance<py::int_>(value)) {
+            report.add(name, value.cast<std::int64_t>());
+        } else if (py::isinstance<py::float_>(value)) {
+            report.add(name, value.cast<double>());
+        } else {
+            report.add(name, value.cast<std::string>());
+        }
+    }
+    return report;
 }
 
 py::dict dict_of(const Report& report) {

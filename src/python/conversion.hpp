@@ -31,6 +31,9 @@ py::object arrays_of(std::vector<PointSet> sets);
 /// Converts JSON to dictionaries, lists, numbers and texts.
 py::object object_of(const nlohmann::ordered_json& value);
 
+/// The report of which this is the dictionary.
+Report report_of(const py::dict& values);
+
 /// Converts a report to a dictionary of flags, numbers, texts, dictionaries and arrays: curves
 /// (k,), grids (rows, columns).
 py::dict dict_of(const Report& report);

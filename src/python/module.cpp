@@ -11,13 +11,17 @@
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "core/spec.hpp"
+#include "core/text.hpp"
 #include "io/provenance.hpp"
 #include "pipeline/chain.hpp"
+#include "pipeline/domains.hpp"
 #include "pipeline/generated.hpp"
 #include "pipeline/pipeline.hpp"
+#include "pipeline/units.hpp"
 #include "pipeline/warping.hpp"
 #include "plot/points_picture.hpp"
 #include "plot/report_charts.hpp"
+#include "plot/study_chart.hpp"
 #include "python/conversion.hpp"
 #include "python/run.hpp"
 #include "report/catalog.hpp"
@@ -26,14 +30,41 @@
 
 namespace stipple::python {
 
+/// A message as a text: names of files may have bytes that are not UTF-8.
+static py::str readable(const std::string& message) {
+    return py::reinterpret_steal<py::str>(PyUnicode_DecodeUTF8(
+        message.data(), static_cast<Py_ssize_t>(message.size()), "backslashreplace"));
+}
+
 void show(const std::vector<std::string>& notes) {
     if (notes.empty()) return;
     const py::object note = py::module_::import("stipple._errors").attr("Note");
     for (const std::string& sentence : notes)
-        if (PyErr_WarnEx(note.ptr(), sentence.c_str(), 2) != 0) throw py::error_already_set();
+        if (PyErr_WarnEx(note.ptr(), std::string(readable(sentence)).c_str(), 2) != 0)
+            throw py::error_already_set();
 }
 
 namespace {
+
+using Given = std::tuple<Array, std::string, std::string>;  ///< rows, domain, provenance as JSON
+
+/// A set with its previous provenance.
+PointSet set_of(const Given& given) {
+    const auto& [rows, domain, meta] = given;
+    PointSet points = points_of(rows, domain);
+    if (!meta.empty()) points.provenance = io::provenance_from(parse_json(meta));
+    points.provenance.domain = domain;
+    points.provenance.count = points.count();
+    points.provenance.dimension = points.dimension();
+    return points;
+}
+
+/// Provenance and domain of a set as a dictionary.
+py::dict meta_of(const PointSet& set) {
+    auto meta = object_of(io::to_json(set.provenance)).cast<py::dict>();
+    if (set.domain) meta["domain"] = set.domain->spec();
+    return meta;
+}
 
 Spec spec_of(const std::string& text, const Settings& settings) {
     Spec spec = parse_spec(text);
@@ -87,15 +118,37 @@ py::tuple generate(const Asked& asked, bool with_meta, const How& how) {
     return py::make_tuple(points, meta);
 }
 
-/// Returns the images or, if `back`, the preimages of points, and the spec of their domain.
-py::tuple warp(const std::string& text, const Settings& settings, const Array& rows,
-               const std::string& domain, bool back, const How& how) {
+/// Returns the images or, if `back`, the preimages of points, and their provenance.
+py::tuple warp(const std::string& text, const Settings& settings, const Given& given, bool back,
+               const How& how) {
     const Spec spec = spec_of(text, settings);
-    PointSet image = released(how, [&, points = points_of(rows, domain)](const RunContext& run) {
+    PointSet image = released(how, [&, points = set_of(given)](const RunContext& run) {
         return warped_set(points, spec, back, run);
     });
-    const std::string on = domain_of(image);
-    return py::make_tuple(array_of(std::move(image)), on);
+    const py::dict meta = meta_of(image);
+    return py::make_tuple(array_of(std::move(image)), meta);
+}
+
+/// The domain of some coordinates of points; empty if it is unknown because they depend on others.
+std::string domain_of_columns(const std::string& domain, std::size_t dimension,
+                              const std::vector<std::size_t>& columns) {
+    std::vector<Factor> kept;
+    for (Factor& factor : warped_factors(parse_domain(domain, dimension))) {
+        std::vector<std::size_t> places;
+        for (const std::size_t coordinate : factor.coordinates)
+            if (const auto at = std::ranges::find(columns, coordinate); at != columns.end())
+                places.push_back(static_cast<std::size_t>(at - columns.begin()));
+        if (places.empty()) continue;
+        if (places.size() < factor.coordinates.size()) return {};
+        kept.push_back({std::move(factor.domain), std::move(places)});
+    }
+    return filled_up(std::move(kept), columns.size())->spec();
+}
+
+/// The spec and the dimension of the domain that a parameter file describes.
+std::pair<std::string, std::size_t> parameters(const std::string& path) {
+    const DomainPtr domain = read_parameters(path);
+    return {domain->spec(), domain->dimension()};
 }
 
 /// A chain of this warp alone, for images with `images` numbers per row.
@@ -140,20 +193,23 @@ py::array density(const std::string& domain, const Array& rows) {
     return column(densities(points_of(rows, domain)));
 }
 
-py::tuple analyze(const std::string& text, const Settings& settings, const Array& rows,
-                  const std::string& domain, const How& how) {
-    PointSet points = points_of(rows, domain);
+/// Returns results, their text, unmet expectations, and the record that report_chart() takes.
+py::tuple analyze(const std::string& text, const Settings& settings, const Given& given,
+                  const How& how) {
+    PointSet points = set_of(given);
     Measurement found = {};
+    found.source = "points";
     found.count = points.count();
     found.dimension = points.dimension();
-    found.domain = domain;
+    found.domain = points.provenance.domain;
+    found.columns = points.provenance.columns;
     found.results = released(how, [&, points = std::move(points)](const RunContext& run) {
         return stipple::analyze(text, points, settings, run);
     });
     found.analyzer = find_analyzer(parse_spec(text).name).name;
-    found.source = "points";
-    const Report& report = found.results;
-    return py::make_tuple(dict_of(report), to_text({&found, 1}), report.unmet(), found);
+    return py::make_tuple(
+        dict_of(found.results), to_text({&found, 1}), found.results.unmet(),
+        py::make_tuple(found.analyzer, found.count, found.dimension, found.domain));
 }
 
 py::list read(const std::string& path, const std::string& format, std::size_t dimension,
@@ -163,24 +219,10 @@ py::list read(const std::string& path, const std::string& format, std::size_t di
     });
     py::list all;
     for (PointSet& set : sets) {
-        py::dict meta = object_of(io::to_json(set.provenance)).cast<py::dict>();
-        if (set.domain) meta["domain"] = set.domain->spec();
+        const py::dict meta = meta_of(set);
         all.append(py::make_tuple(array_of(std::move(set)), meta));
     }
     return all;
-}
-
-using Given = std::tuple<Array, std::string, std::string>;  ///< rows, domain, provenance as JSON
-
-/// A set with its previous provenance.
-PointSet set_of(const Given& given) {
-    const auto& [rows, domain, meta] = given;
-    PointSet points = points_of(rows, domain);
-    if (!meta.empty()) points.provenance = io::provenance_from(parse_json(meta));
-    points.provenance.domain = domain;
-    points.provenance.count = points.count();
-    points.provenance.dimension = points.dimension();
-    return points;
 }
 
 void write_points(const std::string& path, const std::vector<Given>& given,
@@ -263,16 +305,70 @@ plot::Drawing picture(const std::vector<std::pair<std::string, Given>>& given, d
     });
 }
 
-plot::Drawing report_picture(std::vector<std::pair<std::string, Measurement>> named,
-                             const std::string& key, double width, double height,
-                             const std::optional<std::string>& title) {
+/// Name, the record made by analyze(), and results.
+using Reported =
+    std::tuple<std::string, std::tuple<std::string, std::uint64_t, std::size_t, std::string>,
+               py::dict>;
+
+plot::Chart report_chart(const std::vector<Reported>& reported, const std::string& key) {
     std::vector<Measurement> reports;
-    for (auto& [name, found] : named) {
-        found.source = name;
-        reports.push_back(std::move(found));
+    for (const auto& [name, record, results] : reported) {
+        const auto& [analyzer, count, dimension, domain] = record;
+        reports.push_back({.analyzer = analyzer,
+                           .source = name,
+                           .count = count,
+                           .dimension = dimension,
+                           .domain = domain,
+                           .results = report_of(results)});
     }
-    const plot::PictureStyle style{.width = width, .height = height, .title = title};
-    return plot::draw_chart(plot::chart_of(reports, key), style);
+    return plot::chart_of(reports, key);
+}
+
+plot::Chart study_chart(const std::vector<StudyRow>& rows, const std::string& key) {
+    StudySummary summary;
+    for (const auto& [generator, analyzer, dimension, count, seed, name, value, failure] : rows)
+        if (value)
+            summary.add({.generator = generator,
+                         .dimension = dimension,
+                         .count = count,
+                         .seed = seed,
+                         .measure = analyzer,
+                         .key = name,
+                         .value = value});
+    plot::StudyChart found = plot::study_chart(summary.mean_rows({.resamples = 0}, {}), key);
+    if (!found.left_out.empty())
+        show({"not drawn: " + join(found.left_out, ", ") + "; key selects one result"});
+    return std::move(found.chart);
+}
+
+plot::Drawing drawing_of(const plot::Chart& chart, double width, double height,
+                         const std::optional<std::string>& title) {
+    return plot::draw_chart(chart, {.width = width, .height = height, .title = title});
+}
+
+/// The content of a chart's panels: each curve has its name, x, y, and the limits of its band.
+py::list panels_of(const plot::Chart& chart) {
+    const auto curves = [](const std::vector<plot::Series>& all) {
+        py::list found;
+        for (const auto& s : all) found.append(py::make_tuple(s.name, s.x, s.y, s.low, s.high));
+        return found;
+    };
+    py::list panels;
+    for (const plot::ChartPanel& panel : chart.panels) {
+        py::dict all;
+        all["names"] = py::make_tuple(panel.x_name, panel.y_name);
+        all["logs"] = py::make_tuple(panel.log_x, panel.log_y);
+        all["series"] = curves(panel.series);
+        all["bands"] = curves(panel.bands);
+        py::list guides, bars;
+        for (const auto& g : panel.guides) guides.append(py::make_tuple(g.name, g.x, g.y));
+        for (const auto& b : panel.bars) bars.append(py::make_tuple(b.name, b.edges, b.heights));
+        all["guides"] = guides;
+        all["bars"] = bars;
+        all["categories"] = panel.categories;
+        panels.append(all);
+    }
+    return panels;
 }
 
 /// Encodes a drawing in the format, at the size that `stipple plot` uses.
@@ -338,8 +434,10 @@ void translate(std::exception_ptr thrown) {
         if (thrown) std::rethrow_exception(thrown);
     } catch (const Error& e) {
         const py::object type = py::module_::import("stipple._errors").attr("Error");
-        const py::object error = type(py::str(e.what()), word_of(e.kind()), py::str(e.hint()));
+        const py::object error = type(readable(e.what()), word_of(e.kind()), readable(e.hint()));
         PyErr_SetObject(type.ptr(), error.ptr());
+    } catch (const std::bad_alloc&) {
+        translate(std::make_exception_ptr(Error(ErrorKind::limit, "there is not enough memory")));
     }
 }
 
@@ -352,7 +450,9 @@ PYBIND11_MODULE(_stipple, module) {
     using python::How;
     py::register_exception_translator(python::translate);
 
-    py::class_<stipple::Measurement>(module, "Measurement");
+    py::class_<stipple::plot::Chart>(module, "Chart")
+        .def("panels", python::panels_of)
+        .def("drawing", python::drawing_of);
     py::class_<stipple::plot::Drawing>(module, "Drawing").def("bytes", python::picture_bytes);
     py::class_<How>(module, "How")
         .def(py::init([](unsigned threads, double max_memory, py::object progress) {
@@ -372,11 +472,14 @@ PYBIND11_MODULE(_stipple, module) {
     module.def("generate", python::generate);
     module.def("warp", python::warp);
     module.def("domain_of_images", python::domain_of_images);
+    module.def("domain_of_columns", python::domain_of_columns);
+    module.def("parameters", python::parameters);
     module.def("scramble", python::scramble);
     module.def("warp_density", python::warp_density);
     module.def("density", python::density);
     module.def("analyze", python::analyze);
-    module.def("report_picture", python::report_picture);
+    module.def("report_chart", python::report_chart);
+    module.def("study_chart", python::study_chart);
     module.def("read", python::read);
     module.def("write", python::write_points);
     module.def("study", python::study);

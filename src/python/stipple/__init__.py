@@ -15,14 +15,21 @@ number of threads. Most functions accept these arguments:
   max_memory  memory limit in bytes; 0: none.
   progress    True draws a bar on stderr; or a function that is called with the fraction done.
 
-Calls let other Python threads run, and Ctrl-C interrupts them. Errors are raised as Error; notes to
-the user are warnings of the category Note.
+Calls let other Python threads run, and Ctrl-C interrupts them. Wrong arguments and other errors are
+raised as Error; notes to the user are warnings of the category Note. In a process forked from one
+that had already made calls, all calls use one thread.
 """
 
 from ._arrays import Points
 from ._errors import Error, Note
+from ._reports import Page, Picture, Report
 from ._stipple import version as __version__
 from .calls import (
+    Integral,
+    Sequence,
+    Study,
+    StudyMean,
+    StudyValue,
     analyze,
     generate,
     integrate,
@@ -41,8 +48,16 @@ from .units import describe, list
 
 __all__ = [
     "Error",
+    "Integral",
     "Note",
+    "Page",
+    "Picture",
     "Points",
+    "Report",
+    "Sequence",
+    "Study",
+    "StudyMean",
+    "StudyValue",
     "analyze",
     "describe",
     "generate",

@@ -1,24 +1,34 @@
 # SPDX-License-Identifier: MIT
-"""Conversion of Python arrays and settings to the form that the library expects."""
+"""Arrays of points, and their conversion to what the library takes."""
 
+from __future__ import annotations
+
+import copy
 import json
-import os
+from collections.abc import Callable
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
+from . import _frames, _stipple
+from ._arguments import Floats, refuse, settings_of, shown, text
 from ._errors import Error
 
+Given: TypeAlias = tuple[Floats, str, str]
+"""Rows (n, d), the spec of their domain, and their meta as JSON."""
 
-def _is_whole(key, size):
+
+def _is_whole(key: Any, size: int) -> bool:
     return isinstance(key, slice) and range(size)[key] == range(size)
 
 
-def _picks(key):
+def _picks(key: Any) -> bool:
     """Whether a key keeps its axis: a slice, a list of indices or a mask."""
     return isinstance(key, slice) or np.ndim(key) == 1
 
 
-def _keys_of(index, dimensions):
+def _keys_of(index: Any, dimensions: int) -> list[Any] | None:
     """One key per axis; None if the index has other keys."""
     keys = list(index) if isinstance(index, tuple) else [index]
     dots = [i for i, key in enumerate(keys) if key is Ellipsis]
@@ -27,89 +37,147 @@ def _keys_of(index, dimensions):
     return None if len(keys) != dimensions or any(key is None for key in keys) else keys
 
 
-def _meta_of_part(points, index):
-    """The meta of a selection of points. Whole sets keep everything; otherwise the domain and
-    the names and levels of the columns. None if coordinates are dropped, or the result is not
+def _domain_of_columns(domain: str, d: int, columns: list[int]) -> str | None:
+    """The domain of some coordinates; None if it is not known to be the domain of these alone."""
+    if len({*columns}) < len(columns):
+        return None
+    if domain == "unit-cube":
+        return domain
+    whole = " x " not in domain
+    head, _, tail = domain.partition("=[")
+    try:
+        if whole and head == "box:bounds" and len(sides := tail[:-1].split(",")) == d:
+            return f"box:bounds=[{','.join(sides[k] for k in columns)}]"
+        if whole and head == "parameters:json":
+            content = json.loads(tail[:-1])
+            if {*content} - {"parameters", "$schema"}:
+                return None
+            content["parameters"] = [content["parameters"][k] for k in columns]
+            some = len(columns)
+            return _stipple.domain_of_columns(f"{head}=[{json.dumps(content)}]", some, [*range(some)])
+        return None if whole else _stipple.domain_of_columns(domain, d, columns) or None
+    except (Error, ValueError):
+        return None
+
+
+def _meta_of_columns(meta: dict[str, Any], d: int, columns: list[int]) -> dict[str, Any]:
+    """The names, levels and domain of some coordinates."""
+    kept: dict[str, Any] = {}
+    domain = _domain_of_columns(meta.get("domain", "unit-cube"), d, columns)
+    if domain is not None:
+        kept["domain"] = domain
+    if "columns" in meta:
+        names = [meta["columns"][k] for k in columns]
+        if len({*names}) == len(names):
+            kept["columns"] = names
+            levels = {name: meta.get("levels", {}).get(name) for name in names}
+            kept |= {"levels": found} if (found := {k: v for k, v in levels.items() if v}) else {}
+    return kept
+
+
+def _meta_of_part(points: Points, index: Any) -> Any:
+    """The meta of a selection of points. Whole sets keep everything; otherwise the domain, names and
+    levels of the selected coordinates remain as far as they are true. None if the result is not
     points."""
     keys = _keys_of(index, points.ndim)
-    if keys is None or not _is_whole(keys[-1], points.shape[-1]) or not _picks(keys[-2]):
+    if keys is None or points.ndim not in (2, 3) or not (_picks(keys[-1]) and _picks(keys[-2])):
         return None
-    rows = keys[-2]
+    columns = keys[-1]
+    if sum(not isinstance(key, slice) for key in keys[-2:]) > 1:
+        return None
+    rows, d = keys[-2], points.shape[-1]
+    all_columns = _is_whole(columns, d)
 
-    def part(meta):
-        if _is_whole(rows, points.shape[-2]):
+    def part(meta: Any) -> Any:
+        if not isinstance(meta, dict) or all_columns and _is_whole(rows, points.shape[-2]):
             return meta
-        return {key: meta[key] for key in ("domain", "columns", "levels") if key in meta}
+        if all_columns:
+            return {key: meta[key] for key in ("domain", "columns", "levels") if key in meta}
+        return _meta_of_columns(meta, d, np.arange(d)[columns].tolist())
 
     if points.ndim == 2:
         return part(points.meta)
-    if not isinstance(points.meta, list) or points.ndim != 3:
-        return None
     sets = keys[0]
+    if not isinstance(points.meta, list) or not isinstance(sets, slice) and (
+        not isinstance(keys[2], slice) or np.ndim(sets) == 1 and not isinstance(rows, slice)
+    ):
+        return None
     if _picks(sets):
-        both = isinstance(sets, slice) or isinstance(rows, slice)
-        numbers = np.arange(len(points))[sets]
-        return [part(points.meta[k]) for k in numbers] if both else None
+        return [part(points.meta[k]) for k in np.arange(len(points))[sets]]
     return part(points.meta[sets]) if np.ndim(sets) == 0 else None
 
 
-class Points(np.ndarray):
+class Points(np.ndarray[Any, np.dtype[np.float64]]):
     """An array of points (n, d), or (sets, n, d), with its provenance.
 
-    meta: a dictionary of the generator, its options, the seed, warps, domain ...; for several sets
-    a list of them. A selection of points (x[:50], x[::2], x[mask], x[[3, 1]]) keeps the domain and
-    the names and levels of the columns. A selection of columns, and results of arithmetic, are
-    plain arrays, whose meta is None.
+    meta: a dictionary of the generator, its options, the seed, warps, domain, names of columns ...;
+    for several sets a list of them. It is kept by copies and pickles.
+
+    A selection of points (x[:50], x[::2], x[mask], x[[3, 1]]) keeps the domain and the names and
+    levels of the columns. A selection of columns (x[:, :2]) keeps their names and levels, and the
+    domain if it is that of these columns alone: of a cube, a box, parameters that are independent of
+    the others, or a whole factor of a product. Results of arithmetic are plain arrays, whose meta is
+    None.
     """
 
-    meta = None
+    meta: Any = None
 
-    def __array_finalize__(self, source):
+    def __array_finalize__(self, source: object) -> None:
         self.meta = None
 
-    def __getitem__(self, index):
+    def __getitem__(self, index: Any) -> Any:
         part = super().__getitem__(index)
         if self.meta is not None and isinstance(part, Points):
             part.meta = _meta_of_part(self, index)
         return part
 
-    def copy(self, order="C"):
-        return with_meta(super().copy(order), self.meta)
+    def copy(self, order: Literal["K", "A", "C", "F"] | None = "C") -> Points:
+        """A copy with a copy of its meta."""
+        return with_meta(np.array(self, order=order), copy.deepcopy(self.meta))
+
+    def __copy__(self) -> Points:
+        return self.copy()
+
+    def __deepcopy__(self, memo: Any) -> Points:
+        return self.copy()
+
+    def __reduce__(self) -> tuple[Callable[..., Points], tuple[Floats, Any]]:
+        return with_meta, (np.array(self), self.meta)
+
+    def to_pandas(self) -> Any:
+        """A pandas.DataFrame of a set (n, d) with a column for each coordinate: x, y, z or x1, x2,
+        ... unless the meta names them. Columns with levels are categorical. Its attrs record the
+        domain, for use by analyze() and other calls. Raises Error if pandas is not installed."""
+        return _frames.to_pandas(self)
+
+    def to_polars(self) -> Any:
+        """A polars.DataFrame as for to_pandas(), with the type Enum for columns with levels; it does
+        not record the domain. Raises Error if polars is not installed."""
+        return _frames.to_polars(self)
 
 
-def with_meta(array, meta):
+def with_meta(array: Floats, meta: Any) -> Points:
     points = array.view(Points)
     points.meta = meta
     return points
 
 
-def domain_of(x, domain):
-    """The domain as a spec: the given one, or else that of the points' meta."""
-    if domain is not None:
-        return str(domain)
-    meta = getattr(x, "meta", None)
-    return meta.get("domain", "unit-cube") if isinstance(meta, dict) else "unit-cube"
-
-
-def meta_text(x):
-    meta = getattr(x, "meta", None)
-    return json.dumps(meta) if isinstance(meta, dict) else ""
-
-
-def as_rows(x, name="x", most=2):
+def as_rows(x: ArrayLike, name: str = "x", most: int = 2) -> Floats:
     """Points as an array (n, d) of float64 in C order; with most = 3 also (sets, n, d)."""
+    shape = "(n, d)" if most == 2 else "(n, d) or (sets, n, d)"
+    if isinstance(x, (str, bytes)) or hasattr(x, "read"):
+        refuse(name, x, f"points {shape}", "read() returns the points of a file")
     try:
         array = np.asarray(x)
-    except ValueError as error:
+    except Exception as error:
         raise Error(f"{name} is no array of points: {error}", "input") from None
-    if np.ma.is_masked(x):
+    if isinstance(x, np.ma.MaskedArray) and x.mask.any():
         raise Error(f"{name} has masked elements; leave such points out", "input")
     if array.dtype.kind not in "fiu":
         raise Error(
             f"{name} has elements of type {array.dtype}; points are real numbers", "input"
         )
     if not 2 <= array.ndim <= most:
-        shape = "(n, d)" if most == 2 else "(n, d) or (sets, n, d)"
         raise Error(f"{name} has the shape {array.shape}; points are {shape}", "input")
     if array.size == 0:
         raise Error(f"{name} has the shape {array.shape}; there are no points", "input")
@@ -124,56 +192,37 @@ def as_rows(x, name="x", most=2):
     return rows.view(np.ndarray)
 
 
-def _text(value):
-    if isinstance(value, (bool, np.bool_)):
-        return "true" if value else "false"
-    if isinstance(value, (int, np.integer)):
-        return str(int(value))
-    if isinstance(value, (float, np.floating)):
-        return repr(float(value))
-    if isinstance(value, (str, os.PathLike)):
-        return os.fspath(value)
-    if isinstance(value, (list, tuple, np.ndarray)):
-        rows = [list(row) if isinstance(row, (list, tuple, np.ndarray)) else row for row in value]
-        if any(isinstance(row, list) for row in rows):
-            return " ".join(",".join(_text(x) for x in row) for row in rows)
-        return ",".join(_text(x) for x in rows)
-    raise TypeError(f"an option cannot be {value!r}")
+def _with_domain(rows: Floats, meta: Any, domain: object, name: str) -> Given:
+    """Rows with the given domain or, without one, that of the meta."""
+    meta = meta if isinstance(meta, dict) else {}
+    on = meta.get("domain", "unit-cube") if domain is None else domain
+    try:
+        words = json.dumps(meta) if meta else ""
+    except Exception:
+        raise Error(f"{name}.meta is {shown(meta)}; expected what JSON can hold") from None
+    return rows, text("domain", on, 'the name of a domain, such as "disk"'), words
 
 
-def settings_of(options):
-    """Keyword arguments as options: names with dashes, values as text; None values are omitted."""
-    return [
-        (name.rstrip("_").replace("_", "-"), _text(value))
-        for name, value in options.items()
-        if value is not None
-    ]
+def sets_of(x: Any, name: str = "x", domain: object = None) -> tuple[list[Given], bool]:
+    """One or several sets of points, and whether x holds several: an array (sets, n, d), or a list
+    of arrays and tables."""
+    if _frames.is_frame(x):
+        return [given(x, name, domain)], False
+    if isinstance(x, (list, tuple)) and x and all(
+        isinstance(one, np.ndarray) and one.ndim == 2 or _frames.is_frame(one) for one in x
+    ):
+        return [given(one, f"{name}[{k}]", domain) for k, one in enumerate(x)], True
+    rows = as_rows(x, name, most=3)
+    meta = getattr(x, "meta", None)
+    if rows.ndim == 2:
+        return [_with_domain(rows, meta, domain, name)], False
+    metas = meta if isinstance(meta, list) and len(meta) == len(rows) else [meta] * len(rows)
+    return [_with_domain(one, each, domain, name) for one, each in zip(rows, metas)], True
 
 
-def spec_text(value):
-    """The spec of a unit: "disk", "disk:method=concentric", or ("disk", {"method":
-    "concentric"})."""
-    if isinstance(value, str):
-        return value
-    name, options = value
-    settings = ",".join(f"{key}=[{text}]" for key, text in settings_of(options))
-    return f"{name}:{settings}" if settings else name
-
-
-def listed(value):
-    """A list of specs; accepts a single unit, too."""
-    if value is None:
-        return []
-    return [spec_text(value)] if isinstance(value, (str, tuple)) else [spec_text(v) for v in value]
-
-
-def bounds_text(bounds):
-    """Formats bounds: (low, high) for all coordinates, a list of such pairs, or "0..1,0..2"."""
-    if bounds is None or isinstance(bounds, str):
-        return bounds or ""
-    pairs = np.asarray(bounds, dtype=float)
-    if pairs.shape == (2,):
-        pairs = pairs[None]
-    if pairs.ndim != 2 or pairs.shape[1] != 2:
-        raise Error(f"bounds has the shape {pairs.shape}; it is (low, high), or one for each axis")
-    return ",".join(f"{low!r}..{high!r}" for low, high in pairs.tolist())
+def given(x: Any, name: str = "x", domain: object = None) -> Given:
+    """One set of points."""
+    if _frames.is_frame(x):
+        rows, meta = _frames.taken(x, name)
+        return _with_domain(as_rows(rows, name), meta, domain, name)
+    return _with_domain(as_rows(x, name), getattr(x, "meta", None), domain, name)

@@ -1,239 +1,336 @@
 # SPDX-License-Identifier: MIT
 """The functions of the package."""
 
-import collections
+from __future__ import annotations
+
 import difflib
 import inspect
 import json
 import os
-import sys
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import Any, NamedTuple, Never, TypeAlias, TypeVar, overload
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from . import _stipple
-from ._arrays import (
-    as_rows,
+from . import _axes, _stipple
+from ._arguments import (
+    Bounds,
+    Floats,
+    Option,
+    Parameters,
+    Path,
+    Progress,
+    Unit,
+    Units,
     bounds_text,
-    domain_of,
+    flag,
     listed,
-    meta_text,
+    path as path_of,
+    real,
+    refuse,
+    run_options,
+    seed_of,
     settings_of,
     spec_text,
-    with_meta,
+    text,
+    whole,
+    whole_or_none,
+    wholes,
 )
+from ._arrays import Given, Points, as_rows, given, sets_of, with_meta
 from ._errors import Error
+from ._frames import Frame
 from ._reports import Page, Picture, Report
 
-
-def _bar(share):
-    done = int(30 * share)
-    end = "\r\033[K" if share >= 1 else ""
-    sys.stderr.write(f"\r[{'=' * done}{' ' * (30 - done)}] {100 * share:3.0f} %{end}")
-    sys.stderr.flush()
+PointsLike: TypeAlias = ArrayLike | Frame
+Axes = TypeVar("Axes")
+DIMENSIONS = 10**6
+_how = run_options
 
 
-def _how(threads=0, max_memory=0, progress=None):
-    shown = _bar if progress is True else progress or None
-    return _stipple.How(threads, max_memory, shown)
-
-
-def _take_how(options):
-    """Removes the arguments common to all calls from the options and returns them."""
-    return _how(*(options.pop(name, default) for name, default in
-                  (("threads", 0), ("max_memory", 0), ("progress", None))))
-
-
-def _only_how(call, options):
-    """As _take_how(), for a call without units, which has no other options: refuses them."""
-    how = _take_how(options)
-    for name in options:
-        known = [*inspect.signature(call).parameters][:-1] + ["threads", "max_memory", "progress"]
+def _only(call: Callable[..., object], unknown: Mapping[str, object]) -> None:
+    """Refuses keyword arguments that a call without options does not have."""
+    for name in unknown:
+        known = [*inspect.signature(call).parameters][:-1]
         near = difflib.get_close_matches(name, known, n=1)
         hint = f"did you mean '{near[0]}'?" if near else f"known arguments: {', '.join(known)}"
         raise Error(f"{call.__name__}() has no argument '{name}'", hint=hint)
-    return how
 
 
-def _parameters_spec(parameters):
-    """The warp of a parameter file, given by its path or by its content."""
-    if not isinstance(parameters, dict):
-        with open(os.fspath(parameters), encoding="utf-8") as file:
-            parameters = json.load(file)
-    text = json.dumps({k: v for k, v in parameters.items() if k != "$schema"})
-    return f"parameters:json=[{text}]"
+def _parameters_of(parameters: Parameters) -> tuple[str, int]:
+    """The warp of a parameter file, given by its path or by its content, and its dimension."""
+    if not isinstance(parameters, Mapping):
+        return _stipple.parameters(os.fsencode(path_of("parameters", parameters)))
+    try:
+        content = json.dumps({k: v for k, v in parameters.items() if k != "$schema"}, allow_nan=False)
+    except Exception as error:
+        raise Error(f"parameters: no content of a parameter file: {error}") from None
+    entries = parameters.get("parameters")
+    dimension = len(entries) if isinstance(entries, (list, tuple)) else 1
+    spec = f"parameters:json=[{content}]"
+    _stipple.domain_of_columns(spec, dimension, [*range(dimension)])  # refuses wrong content
+    return spec, dimension
 
 
-def generate(generator, n=None, d=None, *, seed=1, start=0, sets=1, bounds=None, warp=None,
-             parameters=None, return_meta=False, **options):
+def generate(
+    generator: Unit,
+    n: int | None = None,
+    d: int | None = None,
+    *,
+    seed: int = 1,
+    start: int = 0,
+    sets: int = 1,
+    bounds: Bounds = None,
+    warp: Units | None = None,
+    parameters: Parameters = None,
+    return_meta: bool = False,
+    as_frame: bool | str = False,
+    threads: int = 0,
+    max_memory: float = 0,
+    progress: Progress = None,
+    **options: Option,
+) -> Any:
     """Points of a generator: an array (n, d) of float64, or (sets, n, d) for several sets.
 
     generator   name or spec: "halton", "sobol:scramble=owen"; list("generators") names all
-    n, d        number of points and of coordinates; by default the generator decides
-    seed        seed of the first set; the others have seed + 1, ...
+    n           number of points; by default the generator decides
+    d           number of coordinates; by default that of the parameters, or the generator decides
+    seed        seed of the first set, from 0 to 2^64 - 1; the others have seed + 1, ...
     start       index of the first point, for sequences
+    sets        number of sets, 1 or more
     bounds      (low, high), or one pair for each coordinate: the box that the points fill
     warp        a warp or scramble, or a list of them: "disk:method=concentric"
     parameters  a parameter file, or a dictionary with the same content
     return_meta returns Points: arrays whose .meta is a dictionary with their provenance, from which
                 analyze() takes the domain
-    options     of the generator: scramble="owen"; and threads, max_memory, progress
+    as_frame    returns a pandas.DataFrame, or with "polars" a polars.DataFrame: columns have the
+                names of the parameters, and words as categories; several sets are a list of tables
+    options     of the generator: scramble="owen"
 
     The numbers are bit for bit those of `stipple generate` with the same arguments. A single set is
-    not copied. Sets of different sizes are returned as a list of arrays.
+    not copied. Sets of different sizes are returned as a list of arrays. Raises Error for unknown
+    names and options, and for sizes that the generator cannot make or that need too much memory.
     """
-    how = _take_how(options)
-    warps = listed(warp)
+    warps = listed("warp", warp)
     if parameters is not None:
-        warps.append(_parameters_spec(parameters))
+        spec, dimension = _parameters_of(parameters)
+        warps.append(spec)
+        d = dimension if d is None else d
+    if as_frame not in (False, True, "pandas", "polars"):
+        refuse("as_frame", as_frame, 'True, "pandas" or "polars"')
+    several = whole("sets", sets, 1, 10**9) > 1
+    meta_needed = flag("return_meta", return_meta) or as_frame is not False
     asked = _stipple.Asked(
-        generator, settings_of(options), n, d, seed, start, sets, bounds_text(bounds), warps
+        spec_text("generator", generator), settings_of(options), whole_or_none("n", n),
+        whole_or_none("d", d, 0, DIMENSIONS), seed_of(seed), whole("start", start), sets,
+        bounds_text(bounds), warps,
     )
-    points, meta = _stipple.generate(asked, return_meta, how)
-    if not return_meta:
+    points, meta = _stipple.generate(asked, meta_needed, run_options(threads, max_memory, progress))
+    if as_frame:
+        each = points if several else [points]
+        frames = [with_meta(one, known).to_polars() if as_frame == "polars" else
+                  with_meta(one, known).to_pandas() for one, known in zip(each, meta)]
+        return frames if several else frames[0]
+    if not meta_needed:
         return points
     if isinstance(points, list):
-        return [with_meta(one, each) for one, each in zip(points, meta)]
-    return with_meta(points, meta[0] if sets == 1 else meta)
+        return [with_meta(one, known) for one, known in zip(points, meta)]
+    return with_meta(points, meta if several else meta[0])
 
 
 class Sequence:
     """Points of a sequence by index: s[10] is an array (d,), s[10:20] an array (10, d), and
-    s.blocks(1000) yields blocks of 1000 points endlessly."""
+    s.blocks(1000) yields blocks of 1000 points endlessly. Made by sequence(); can be copied and
+    pickled."""
 
-    def __init__(self, generator, d=None, *, seed=1, **options):
-        self._how = _take_how(options)
-        self._points = _stipple.Indexed(generator, settings_of(options), d, seed)
+    def __init__(self, generator: Unit, d: int | None = None, *, seed: int = 1, threads: int = 0,
+                 max_memory: float = 0, progress: Progress = None, **options: Option) -> None:
+        self._made_by: tuple[Unit, int | None, dict[str, Any]] = generator, d, {**options}
+        self._made_by[2].update(seed=seed, threads=threads, max_memory=max_memory, progress=progress)
+        self._how = run_options(threads, max_memory, progress)
+        self._points = _stipple.Indexed(
+            spec_text("generator", generator), settings_of(options),
+            whole_or_none("d", d, 0, DIMENSIONS), seed_of(seed),
+        )
+
+    def __reduce__(self) -> tuple[Callable[..., Sequence], tuple[Any, ...]]:
+        return _again, self._made_by
 
     @property
-    def d(self):
+    def d(self) -> int:
         """Number of coordinates."""
         return self._points.dimension
 
-    def __getitem__(self, index):
+    def __getitem__(self, index: int | slice) -> Floats:
         if isinstance(index, slice):
-            first, step = index.start or 0, index.step or 1
-            if index.stop is None or first < 0 or index.stop < 0 or step < 1:
+            if index.stop is None or any(isinstance(part, int) and part < low for part, low in
+                                         ((index.start, 0), (index.stop, 0), (index.step, 1))):
                 raise IndexError("a sequence has no end; slices are [first:last] with 0 <= first")
-            rows = self._points.part(first, max(0, index.stop - first), self._how)
+            first, last, step = (whole("an index", 0 if part is None else part) for part in
+                                 (index.start, index.stop, 1 if index.step is None else index.step))
+            rows = self._points.part(first, max(0, last - first), self._how)
             return rows if step == 1 else rows[::step].copy()
-        index = index.__index__()
-        if index < 0:
+        if isinstance(index, (int, np.integer)) and index < 0:
             raise IndexError("a sequence has no end to count from")
-        return self._points.part(index, 1, self._how)[0]
+        one: Floats = self._points.part(whole("an index", index), 1, self._how)[0]
+        return one
 
-    def blocks(self, size, start=0):
-        """Consecutive blocks of `size` points, from point `start` on."""
-        if size < 1:
-            raise Error("size: a block has one point or more")
-        while True:
-            yield self[start : start + size]
-            start += size
+    def blocks(self, size: int, start: int = 0) -> Iterator[Floats]:
+        """Consecutive blocks (size, d) of `size` >= 1 points, from point `start` >= 0 on."""
+        whole("size", size, 1)
+        whole("start", start)
 
-    def __iter__(self):
+        def all_blocks(first: int) -> Iterator[Floats]:
+            while True:
+                yield self[first : first + size]
+                first += size
+
+        return all_blocks(start)
+
+    def __iter__(self) -> Iterator[Floats]:
         for block in self.blocks(1024):
             yield from block
 
 
-def sequence(generator, d=None, *, seed=1, **options):
+def _again(generator: Unit, d: int | None, options: dict[str, Any]) -> Sequence:
+    return Sequence(generator, d, **options)
+
+
+def sequence(generator: Unit, d: int | None = None, *, seed: int = 1, threads: int = 0,
+             max_memory: float = 0, progress: Progress = None, **options: Option) -> Sequence:
     """Points of a sequence by index and in blocks; see Sequence. Works with generators whose points
-    do not depend on their number."""
-    return Sequence(generator, d, seed=seed, **options)
+    do not depend on their number; raises Error for others. Arguments as for generate()."""
+    return Sequence(generator, d, seed=seed, threads=threads, max_memory=max_memory,
+                    progress=progress, **options)
 
 
-def _each_set(x, work):
-    """Applies work(rows) to a set, or to each of several sets."""
-    rows = as_rows(x, most=3)
-    if rows.ndim == 2:
-        return work(rows)
-    return np.stack([work(one) for one in rows])
+def _each_set(sets: tuple[list[Given], bool], work: Callable[[int, Given], Any]) -> Any:
+    """Applies work(k, set) to a set, or to each of several sets."""
+    results = [work(k, one) for k, one in enumerate(sets[0])]
+    if not sets[1]:
+        return results[0]
+    return np.stack(results) if len({one.shape for one in results}) == 1 else results
 
 
-def warp(x, warp, **options):
-    """Images of points of the unit cube: arrays (n, k); arrays (sets, n, d) are warped set by set.
+def warp(x: PointsLike, warp: Unit, *, threads: int = 0, max_memory: float = 0,
+         progress: Progress = None, **options: Option) -> Any:
+    """Images of points of the unit cube: Points (n, k); arrays (sets, n, d) are warped set by set.
 
+    x        points (n, d) or (sets, n, d) in [0, 1], a table, or a list of sets
     warp     name or spec: "disk", "triangle:method=fold", "disk@1,2"; list("warps") names all
-    options  of the warp: method="concentric"; and threads, max_memory, progress
+    options  of the warp: method="concentric"
 
-    Returns Points, whose meta has the domain for use by analyze() and inverse().
+    The meta of the result has the domain for use by analyze() and inverse(), and what x's meta told
+    of its making. Raises Error for points outside the unit cube.
     """
-    how = _take_how(options)
-    settings = settings_of(options)
-    text = spec_text(warp)
-    before = domain_of(x, None)
-    domains = []
+    how = run_options(threads, max_memory, progress)
+    settings, spec = settings_of(options), spec_text("warp", warp)
+    meta: list[Any] = []
 
-    def image(rows):
-        points, domain = _stipple.warp(text, settings, rows, before, False, how)
-        domains.append(domain)
+    def image(k: int, one: Given) -> Floats:
+        points, known = _stipple.warp(spec, settings, one, False, how)
+        meta.append(known)
         return points
 
-    return with_meta(_each_set(x, image), {"domain": domains[0]})
+    sets = sets_of(x)
+    images = _each_set(sets, image)
+    if isinstance(images, list):
+        return [with_meta(one, known) for one, known in zip(images, meta)]
+    return with_meta(images, meta if sets[1] else meta[0])
 
 
-def inverse(x, warp, **options):
-    """The points of the unit cube that a warp maps to x; arguments as for warp()."""
-    how = _take_how(options)
-    settings = settings_of(options)
-    text = spec_text(warp)
-    rows = as_rows(x, most=3)
-    domain = domain_of(x, None)
-    if domain == "unit-cube":
-        domain = _stipple.domain_of_images(text, settings, rows.shape[-1])
-    return _each_set(rows, lambda one: _stipple.warp(text, settings, one, domain, True, how)[0])
+def inverse(x: PointsLike, warp: Unit, *, threads: int = 0, max_memory: float = 0,
+            progress: Progress = None, **options: Option) -> Floats:
+    """The points of the unit cube that a warp maps to x: an array (n, d) or (sets, n, d). Arguments
+    as for warp(); raises Error for points outside the warp's domain."""
+    how = run_options(threads, max_memory, progress)
+    settings, spec = settings_of(options), spec_text("warp", warp)
+
+    def preimage(k: int, one: Given) -> Floats:
+        rows, domain, meta = one
+        if domain == "unit-cube":
+            domain = _stipple.domain_of_images(spec, settings, rows.shape[-1])
+        return _stipple.warp(spec, settings, (rows, domain, meta), True, how)[0]
+
+    found: Floats = _each_set(sets_of(x), preimage)
+    return found
 
 
-def pdf(x, warp, **options):
+def pdf(x: PointsLike, warp: Unit, **options: Option) -> Floats:
     """Density of a warp's image at each point, with respect to length, area, volume ... of its
     domain: an array (n,), or (sets, n); 0 outside the domain. Arguments as for warp()."""
-    settings = settings_of(options)
-    text = spec_text(warp)
-    return _each_set(x, lambda rows: _stipple.warp_density(text, settings, rows))
+    settings, spec = settings_of(options), spec_text("warp", warp)
+    found: Floats = _each_set(
+        sets_of(x), lambda k, one: _stipple.warp_density(spec, settings, one[0])
+    )
+    return found
 
 
-def scramble(x, scramble, *, seed=1, start=0, **options):
+def scramble(x: PointsLike, scramble: Unit, *, seed: int = 1, start: int = 0, threads: int = 0,
+             max_memory: float = 0, progress: Progress = None, **options: Option) -> Floats:
     """Moves points of the unit cube at random, so that each becomes uniform and the set stays as
-    evenly distributed.
+    evenly distributed: an array (n, d) or (sets, n, d).
 
+    x         points (n, d) or (sets, n, d) in [0, 1)
     scramble  name or spec: "owen", "cranley-patterson"; list("scrambles") names all
+    seed      from 0 to 2^64 - 1; for several sets, set k has the seed seed + k
     start     index of the first point, for parts of a sequence
     options   of the scramble. Digits have the bases of the generator if x has its meta, else base 2:
               for plain arrays of other bases, such as Halton's, pass base=[2, 3, 5]
 
-    For several sets (sets, n, d), set k has the seed seed + k.
+    Raises Error for points outside the unit cube.
     """
-    how = _take_how(options)
-    settings = settings_of(options)
-    text = spec_text(scramble)
-    rows = as_rows(x, most=3)
-    if rows.ndim == 2:
-        return _stipple.scramble(text, settings, rows, meta_text(x), seed, start, how)
-    return np.stack([_stipple.scramble(text, settings, one, meta_text(x[k]), seed + k, start, how)
-                     for k, one in enumerate(rows)])
+    how = run_options(threads, max_memory, progress)
+    settings, spec = settings_of(options), spec_text("scramble", scramble)
+    first = seed_of(seed)
+    whole("start", start)
+
+    def scrambled(k: int, one: Given) -> Floats:
+        rows, _, meta = one
+        outside = np.flatnonzero(((rows < 0) | (rows > 1)).any(axis=1))
+        if outside.size:
+            raise Error(f"x[{outside[0]}] is {rows[outside[0]].tolist()}, outside the unit cube", "input")
+        return _stipple.scramble(spec, settings, rows, meta, (first + k) % 2**64, start, how)
+
+    found: Floats = _each_set(sets_of(x), scrambled)
+    return found
 
 
-def analyze(analyzer, x, *, domain=None, integrand=None, **options):
+def analyze(analyzer: Unit, x: PointsLike, *, domain: str | None = None,
+            integrand: str | Callable[[Floats], ArrayLike] | None = None, threads: int = 0,
+            max_memory: float = 0, progress: Progress = None, **options: Option) -> Report:
     """Results of an analyzer for a set of points: a Report, which is a mapping with attributes.
 
     analyzer   name or spec: "star-discrepancy", "l2-discrepancy:kind=centered"
-    x          points (n, d)
+    x          points (n, d), or a table; each number is finite
     domain     the points' domain, as for `stipple analyze --domain`; default: that of their meta, or
                the unit cube
     integrand  of the analyzer integration: a name, or a function from an array (n, d) to (n,)
-    options    of the analyzer; and threads, max_memory, progress
+    options    of the analyzer
+
+    Raises Error for points outside the domain, and for what the analyzer cannot measure.
     """
-    how = _take_how(options)
-    rows = as_rows(x)
-    on = domain_of(x, domain)
+    how = run_options(threads, max_memory, progress)
+    spec, one = spec_text("analyzer", analyzer), given(x, domain=domain)
     if callable(integrand):
-        return _integral_of(integrand, rows, on, options)
-    found = _stipple.analyze(
-        analyzer, settings_of({"integrand": integrand, **options}), rows, on, how
-    )
-    return Report(*found)
+        if spec != "integration":
+            raise Error(f"integrand: {spec} takes no function; the analyzer integration does")
+        return _integral_of(integrand, one, options)
+    if integrand is not None:
+        text("integrand", integrand, "the name of an integrand, or a function")
+    return Report(*_stipple.analyze(spec, settings_of({"integrand": integrand, **options}), one, how))
 
 
-def _values(function, x):
-    values = np.asarray(function(x), dtype=float)
+def _values(function: Callable[[Floats], ArrayLike], x: Floats) -> Floats:
+    found = function(x)
+    try:
+        values = np.asarray(found)
+        if values.dtype.kind not in "fiub":
+            raise TypeError
+    except Exception:
+        raise Error(f"the integrand gives {type(found).__name__} for {len(x)} points; expected an "
+                    f"array ({len(x)},) of real numbers", "input") from None
     if values.shape != (len(x),):
         raise Error(
             f"the integrand gives the shape {values.shape} for {len(x)} points; expected "
@@ -242,100 +339,166 @@ def _values(function, x):
     if not np.isfinite(values).all():
         i = int(np.argmin(np.isfinite(values)))
         raise Error(f"the integrand is {values[i]} at x[{i}]", "input")
-    return values
+    return values.astype(np.float64)
 
 
-def _integral_of(function, rows, domain, options):
+def _integral_of(function: Callable[[Floats], ArrayLike], one: Given,
+                 options: dict[str, Any]) -> Report:
     exact = options.pop("exact", None)
-    mean = options.pop("mean", False)
+    mean = flag("mean", options.pop("mean", False))
     if options:
         raise Error(f"{next(iter(options))}: a function as integrand takes `exact` and `mean` only")
+    rows, domain, _ = one
     values = _values(function, rows)
     if not mean:
         values = values / _stipple.density(domain, rows)
-    estimate = float(np.mean(values))
-    found = {"estimate": estimate}
+    found = {"estimate": float(np.mean(values))}
     if exact is not None:
-        found |= {"exact": float(exact), "error": estimate - float(exact)}
+        number = real("exact", exact, -np.inf, np.inf, "a number")
+        found |= {"exact": number, "error": found["estimate"] - number}
     name = getattr(function, "__name__", "integrand").strip("<>")
-    text = "".join(f"{name}.{key}  {value:.6g}\n" for key, value in found.items())
-    return Report({name: found}, text)
+    lines = "".join(f"{name}.{key}  {value:.6g}\n" for key, value in found.items())
+    return Report({name: found}, lines)
 
 
-Integral = collections.namedtuple("Integral", "estimate standard_error low high estimates")
-Integral.__doc__ = """Result of integrate(): the mean of the replications' estimates, its standard
-error, the Student t confidence interval [low, high], and the estimates."""
+class Integral(NamedTuple):
+    """Result of integrate(): the mean of the replications' estimates, its standard error, the
+    Student t confidence interval [low, high], and the estimates, an array (replications,)."""
+
+    estimate: float
+    standard_error: float
+    low: float
+    high: float
+    estimates: Floats
 
 
-def integrate(function, generator, n, d, *, replications=16, seed=1, confidence=0.95, warp=None,
-              mean=False, **options):
+def integrate(function: Callable[[Floats], ArrayLike], generator: Unit, n: int, d: int | None, *,
+              replications: int = 16, seed: int = 1, confidence: float = 0.95,
+              warp: Unit | None = None, mean: bool = False, threads: int = 0,
+              max_memory: float = 0, progress: Progress = None, **options: Option) -> Integral:
     """Integral of a function over the unit cube, or over the domain of a warp: an Integral.
 
-    function      takes an array (m, d) of points; returns an array (m,) of values
+    function      takes an array (m, d) of points; returns an array (m,) of finite values
     generator     name or spec; its seeds must give independent sets: "sobol:scramble=owen"
+    n, d          number of points of each set, and of their coordinates
     replications  number of sets of n points, with seeds seed, seed + 1, ...; at least 2
+    confidence    of the interval, in (0, 1)
     warp          one warp; values are divided by the density of its images
     mean          estimate the mean of the values under the warp's distribution, such as an expected
                   value, instead of the integral over its domain
-    options       of the generator; and threads, max_memory, progress
+    options       of the generator
+
+    Raises Error if sets do not depend on their seeds; exceptions of the function are passed on.
     """
-    if replications < 2:
+    if not callable(function):
+        refuse("function", function, "a function of an array of points")
+    if whole("replications", replications, 0) < 2:
         raise Error("replications: an error needs two or more")
-    estimates = []
-    before = None
+    spec = spec_text("generator", generator)
+    mapping = None if warp is None else spec_text("warp", warp)
+    plain = flag("mean", mean) or mapping is None
+    real("confidence", confidence, 0, 1, "a number between 0 and 1")
+    estimates: list[float] = []
+    before: Floats | None = None
+    made_by: dict[str, Any] = {**options, "threads": threads, "max_memory": max_memory, "progress": progress}
     for r in range(replications):
-        x = generate(generator, n, d, seed=seed + r, warp=warp, **options)
-        if np.array_equal(x, before):
-            raise Error(f"{generator}: its points do not depend on the seed; scramble them")
+        x = generate(spec, n, d, seed=seed_of(seed) + r, warp=mapping, **made_by)
+        if before is not None and np.array_equal(x, before):
+            raise Error(f"{spec}: its points do not depend on the seed; scramble them")
         before = x
         values = _values(function, x)
-        estimates.append(float(np.mean(values if warp is None or mean else values / pdf(x, warp))))
-    rows = [("", "", d, n, r, "", value, "") for r, value in enumerate(estimates)]
-    mean, low, high = _stipple.means(rows, confidence)[0][6:9]
+        estimates.append(float(np.mean(values if plain else values / pdf(x, mapping or ""))))
+    rows = [("", "", 0, 0, r, "", value, "") for r, value in enumerate(estimates)]
+    centre, low, high = _stipple.means(rows, confidence)[0][6:9]
     error = float(np.std(estimates, ddof=1) / np.sqrt(replications))
-    return Integral(mean, error, low, high, np.array(estimates))
+    return Integral(centre, error, low, high, np.array(estimates))
 
 
-def read(path, *, format="", d=0, single=False, **options):
+def read(path: Path, *, format: str = "", d: int = 0, single: bool = False, threads: int = 0,
+         max_memory: float = 0, progress: Progress = None,
+         **unknown: Never) -> Points | list[Points]:
     """Points of a file: Points (n, d) with the file's meta; a list of them if the file has several
-    sets. d and single (float32) are required for raw binary files."""
-    sets = _stipple.read(os.fspath(path), format, d, single, _only_how(read, options))
+    sets.
+
+    format  name of a format, list("formats"); default: the file tells
+    d       number of coordinates, for raw binary files
+    single  raw binary files have float32 numbers
+
+    Raises Error for files that cannot be read.
+    """
+    _only(read, unknown)
+    sets = _stipple.read(os.fsencode(path_of("path", path)), text("format", format),
+                         whole("d", d, 0, DIMENSIONS), flag("single", single),
+                         run_options(threads, max_memory, progress))
     points = [with_meta(rows, meta) for rows, meta in sets]
     return points[0] if len(points) == 1 else points
 
 
-def _given(x, domain=None):
-    return as_rows(x), domain_of(x, domain), meta_text(x)
+def write(path: Path, x: PointsLike | Iterable[PointsLike], *, domain: str | None = None,
+          format: str = "", header: bool = True, meta: bool = False, single: bool = False,
+          precision: int | None = None, threads: int = 0, max_memory: float = 0,
+          progress: Progress = None, **unknown: Never) -> None:
+    """Writes points to a file in the format of its extension: csv, txt, json, jsonl, npy, bin, utk,
+    psa, ply, svg; .gz and .zst compress it.
+
+    x          points (n, d) or (sets, n, d), a table, whose names and words are kept, or a list of
+               sets
+    domain     of the points; default: that of their meta, or the unit cube
+    format     instead of the extension's: list("formats") names all
+    header     write names of columns, where the format has them
+    meta       write the provenance, where the format does so only on request
+    single     write float32 numbers, where the format is binary
+    precision  digits after the point, from 0 to 1000
+
+    Raises Error for formats that cannot hold the points, and for files that cannot be written.
+    """
+    _only(write, unknown)
+    digits = whole_or_none("precision", precision, 0, 1000)
+    _stipple.write(os.fsencode(path_of("path", path)), sets_of(x, "x", domain)[0], text("format", format),
+                   flag("header", header), flag("meta", meta), flag("single", single), digits,
+                   run_options(threads, max_memory, progress))
 
 
-def write(path, x, *, domain=None, format="", header=True, meta=False, single=False,
-          precision=None, **options):
-    """Writes points (n, d), or several sets, to a file in the format of its extension: csv, txt,
-    json, jsonl, npy, bin, utk, psa, ply, svg; .gz and .zst compress it."""
-    how = _only_how(write, options)
-    several = x if isinstance(x, list) and np.ndim(x[0]) == 2 else None
-    if several is None:
-        several = [x] if np.ndim(x) != 3 else list(x)
-    _stipple.write(os.fspath(path), [_given(one, domain) for one in several], format, header, meta,
-                   single, precision, how)
+class StudyValue(NamedTuple):
+    """A number of a study. value is None and failure says why if the analyzer failed."""
+
+    generator: str
+    analyzer: str
+    dimension: int
+    count: int  # type: ignore[assignment]
+    seed: int
+    key: str
+    value: float | None
+    failure: str
 
 
-StudyValue = collections.namedtuple(
-    "StudyValue", "generator analyzer dimension count seed key value failure"
-)
-StudyMean = collections.namedtuple(
-    "StudyMean", "generator analyzer dimension count key sets mean low high rms"
-)
+class StudyMean(NamedTuple):
+    """The mean of a result over `sets` seeds, with its confidence interval and the root mean square,
+    which is the usual mean of errors."""
+
+    generator: str
+    analyzer: str
+    dimension: int
+    count: int  # type: ignore[assignment]
+    key: str
+    sets: int
+    mean: float
+    low: float
+    high: float
+    rms: float
 
 
-class Study(list):
-    """The numbers of a study, each a StudyValue; means() averages them over seeds."""
+class Study(list[StudyValue]):
+    """The numbers of a study, each a StudyValue; means() averages them over seeds. A table of pandas
+    is pandas.DataFrame(study)."""
 
-    def means(self, confidence=0.95):
-        """Means over the seeds with Student's t confidence intervals: a list of StudyMean."""
-        return [StudyMean(*row) for row in _stipple.means([tuple(row) for row in self], confidence)]
+    def means(self, confidence: float = 0.95) -> list[StudyMean]:
+        """Means over the seeds with Student's t confidence intervals of this level in (0, 1): a list
+        of StudyMean."""
+        real("confidence", confidence, 0, 1, "a number between 0 and 1")
+        return [StudyMean(*row) for row in _stipple.means(_rows(self), confidence)]
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str:
         head = "".join(f"<th>{name}</th>" for name in StudyValue._fields)
         body = "".join(
             "<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in self[:100]
@@ -343,71 +506,147 @@ class Study(list):
         return f"<table><tr>{head}</tr>{body}</table>"
 
 
-def study(generators, analyzers, *, n=(1024,), d=(2,), seeds=1, seed=1, warp=None, keys=(),
-          **options):
+def _rows(study: Iterable[StudyValue]) -> list[tuple[Any, ...]]:
+    return [tuple(row) for row in study]
+
+
+def study(generators: Units, analyzers: Units, *, n: int | Iterable[int] = (1024,),
+          d: int | Iterable[int] | None = None, seeds: int = 1, seed: int = 1,
+          warp: Units | None = None, parameters: Parameters = None,
+          keys: str | Iterable[str] = (), threads: int = 0, max_memory: float = 0,
+          progress: Progress = None, **unknown: Never) -> Study:
     """Measures every generator at every count and dimension, with several seeds, by every analyzer.
-    Returns a Study: a list of StudyValue, ordered by generator, dimension, count, seed and
-    analyzer. keys are the results to keep, as for `stipple study --keys`: "value", "mean[0]"."""
-    how = _only_how(study, options)
-    counts = [n] if np.isscalar(n) else [int(k) for k in n]
-    dimensions = [d] if np.isscalar(d) else [int(k) for k in d]
-    rows = _stipple.study(listed(generators), listed(analyzers), listed(warp), counts, dimensions,
-                          seed, seeds, [keys] if isinstance(keys, str) else list(keys), how)
+    Returns a Study: a list of StudyValue, ordered by generator, dimension, count, seed and analyzer.
+
+    generators, analyzers  one name or spec, or several
+    n, d        numbers of points, and of coordinates; default of d: that of the parameters, or 2
+    seeds       number of sets of each kind, with the seeds seed, seed + 1, ...
+    warp        a warp or scramble of all sets, or a list of them
+    parameters  a parameter file, or a dictionary with the same content
+    keys        the results to keep, as for `stipple study --keys`: "value", "mean[0]"
+
+    Raises Error for unknown names and keys; failures of analyzers are recorded in the rows.
+    """
+    _only(study, unknown)
+    warps = listed("warp", warp)
+    if parameters is not None:
+        spec, dimension = _parameters_of(parameters)
+        warps.append(spec)
+        d = dimension if d is None else d
+    specs = listed("generators", generators), listed("analyzers", analyzers)
+    for name, given_specs in zip(("generators", "analyzers"), specs):
+        if not given_specs:
+            raise Error(f"{name}: expected one or more names or specs")
+    kept = [keys] if isinstance(keys, (str, bytes)) or not isinstance(keys, Iterable) else list(keys)
+    rows = _stipple.study(
+        *specs, warps, wholes("n", n),
+        wholes("d", 2 if d is None else d, 1, DIMENSIONS), seed_of(seed),
+        whole("seeds", seeds, 1, 10**9), [text("keys", key, "the key of a result") for key in kept],
+        run_options(threads, max_memory, progress),
+    )
     return Study(StudyValue(*row) for row in rows)
 
 
-def _named(x):
-    sets = x if isinstance(x, dict) else {"points": x}
-    return [(name, _given(one)) for name, one in sets.items()]
+def _named(x: Any) -> list[tuple[str, Given]]:
+    sets = x if isinstance(x, Mapping) else {"points": x}
+    if not sets:
+        raise Error("x is empty; expected points, or a dictionary of points by name")
+    found = [(text("a name in x", name), given(one, "x" if sets is not x else f"x[{name!r}]"))
+             for name, one in sets.items()]
+    dimensions = {one[0].shape[1] for _, one in found}
+    if len(dimensions) > 1:
+        raise Error(f"x has sets of {' and '.join(map(str, sorted(dimensions)))} coordinates; "
+                    "expected sets of one dimension", "input")
+    return found
 
 
-def report(path, x, **options):
+def report(path: Path, x: PointsLike | Mapping[str, PointsLike], *, threads: int = 0,
+           max_memory: float = 0, progress: Progress = None, **unknown: Never) -> Page:
     """Writes a self-contained HTML page that compares up to 12 sets of one dimension: points, or a
-    dictionary of points by name. Returns a Page, which notebooks display."""
-    _stipple.report(os.fspath(path), _named(x), _only_how(report, options))
-    return Page(os.fspath(path))
+    dictionary of points by name. Returns a Page, which notebooks display. Raises Error for sets that
+    cannot be compared, and if the file cannot be written."""
+    _only(report, unknown)
+    name = path_of("path", path)
+    _stipple.report(os.fsencode(name), _named(x), run_options(threads, max_memory, progress))
+    return Page(name)
 
 
-def _relabelled(x, labels):
+def _relabelled(x: Any, labels: str | Iterable[str]) -> dict[str, Any]:
     """The sets or reports with these names."""
-    labels = [labels] if isinstance(labels, str) else list(labels)
+    names = [labels] if isinstance(labels, str) or not isinstance(labels, Iterable) else list(labels)
+    names = [text("labels", name, "names") for name in names]
     values = list(x.values()) if isinstance(x, dict) else [x]
-    if len(labels) != len(values) or len(set(labels)) != len(labels):
-        raise Error(f"labels: {len(labels)} names for {len(values)} sets; expected one for each, "
+    if len(names) != len(values) or len(set(names)) != len(names):
+        raise Error(f"labels: {len(names)} names for {len(values)} sets; expected one for each, "
                     "all different")
-    return dict(zip(labels, values))
+    return dict(zip(names, values))
 
 
-def plot(x, ax=None, *, key="", width=0, height=0, title=None, labels=None, **options):
-    """A picture of points, or of a dictionary of points by name. 1-D points give a histogram; 2-D
-    and 3-D points are shown with the outline of their domain; others as pairs of coordinates.
-    Reports of one analyzer are shown by their curves; if they have none, by one number (chosen by
-    key) against the number of points. Notebooks display the picture; save(path) writes it as .svg,
-    .pdf or .png. With matplotlib axes as ax, draws points (n, 2) there and returns ax.
+def _chart_of(x: Any, key: str) -> _stipple.Chart | None:
+    """The chart of a study, or of reports; None for points."""
+    if isinstance(x, Study) or isinstance(x, list) and x and isinstance(x[0], StudyValue):
+        return _stipple.study_chart(_rows(x), key)
+    reports = x if isinstance(x, dict) else {"report": x}
+    if not reports or not all(isinstance(one, Report) for one in reports.values()):
+        return None
+    if any(one._record is None for one in reports.values()):
+        raise Error("a part of a report, or an integral of a function, has no picture", "input")
+    return _stipple.report_chart(
+        [(text("a name in x", name), one._record, one._plain()) for name, one in reports.items()],
+        key,
+    )
 
+
+Plotted: TypeAlias = (
+    PointsLike | Report | Study | Mapping[str, PointsLike] | Mapping[str, Report] | list[StudyValue]
+)
+
+
+@overload  # type: ignore[misc]  # None is not meant by Axes
+def plot(x: Plotted, ax: None = None, *, key: str = "", width: float = 0, height: float = 0,
+         title: str | None = None, labels: str | Iterable[str] | None = None, threads: int = 0,
+         max_memory: float = 0, progress: Progress = None, **unknown: Never) -> Picture: ...
+@overload
+def plot(x: Plotted, ax: Axes, *, key: str = "", width: float = 0, height: float = 0,
+         title: str | None = None, labels: str | Iterable[str] | None = None, threads: int = 0,
+         max_memory: float = 0, progress: Progress = None, **unknown: Never) -> Axes: ...
+def plot(x: Any, ax: Any = None, *, key: str = "", width: float = 0, height: float = 0,
+         title: str | None = None, labels: str | Iterable[str] | None = None, threads: int = 0,
+         max_memory: float = 0, progress: Progress = None, **unknown: Never) -> Any:
+    """A picture of points, of reports, or of a study.
+
+    x       points, or a dictionary of points by name. 1-D points give a histogram; 2-D and 3-D points
+            are shown with the outline of their domain; others as pairs of coordinates.
+            A Report, or a dictionary of Reports of one analyzer by name: they are shown by their
+            curves; if they have none, by one number against the number of points.
+            A Study, or a list of its rows: means against the number of points
+    ax      axes of Matplotlib, to draw there: points (n, 2), or a chart. A list of axes has one for
+            each panel of the chart; single axes show the first panel
+    key     the result to draw, of reports and studies
+    width, height  of the picture; 0: automatic
     title   replaces the title; "" leaves out title and subtitle
     labels  names of the sets in the legend; default: the keys of the dictionary
+
+    Returns ax if given, else a Picture, which notebooks display; its save(path) writes it as .svg,
+    .pdf or .png. Raises Error for what cannot be drawn.
     """
-    how = _only_how(plot, options)
+    _only(plot, unknown)
+    how = run_options(threads, max_memory, progress)
+    if title is not None:
+        text("title", title)
+    width = real("width", width, 0, 1e6, "a length; 0: automatic")
+    height = real("height", height, 0, 1e6, "a length; 0: automatic")
     if labels is not None:
         x = _relabelled(x, labels)
-    reports = x if isinstance(x, dict) else {"report": x}
-    if ax is None and reports and all(isinstance(one, Report) for one in reports.values()):
-        found = [(name, one._found) for name, one in reports.items()]
-        if any(one is None for _, one in found):
-            raise Error("a part of a report, or an integral of a function, has no picture", "input")
-        return Picture(_stipple.report_picture(found, key, width, height, title))
+    chart = _chart_of(x, text("key", key))
     if ax is None:
-        return Picture(_stipple.picture(_named(x), width, height, title, how))
-    for name, one in (x if isinstance(x, dict) else {None: x}).items():
-        rows = as_rows(one)
-        if rows.shape[1] != 2:
-            raise Error(f"matplotlib axes show 2 coordinates; the points have {rows.shape[1]}",
-                        "input")
-        ax.scatter(rows[:, 0], rows[:, 1], s=max(1, 4000 / len(rows)), label=name)
-    ax.set_aspect("equal")
-    if title is not None:
-        ax.set_title(title)
-    if isinstance(x, dict):
-        ax.legend()
+        drawing = (chart.drawing(width, height, title) if chart else
+                   _stipple.picture(_named(x), width, height, title, how))
+        return Picture(drawing)
+    axes = _axes.axes_of(ax)
+    if chart:
+        _axes.draw_chart(axes, chart, title)
+        return ax
+    sets = [(name, one[0]) for name, one in _named(x)]
+    _axes.draw_points(axes[0], sets, title, isinstance(x, Mapping))
     return ax

@@ -1,33 +1,43 @@
 # SPDX-License-Identifier: MIT
 """Descriptions of the units, from the same records as the command line's help."""
 
+from __future__ import annotations
+
 import functools
 import textwrap
+from collections.abc import Iterable
+from typing import Any, overload
 
 from . import _stipple
+from ._arguments import text
 from ._errors import Error
 
 _KINDS = ("generators", "scrambles", "warps", "analyzers", "formats")
 
 
 @functools.cache
-def records():
+def records() -> dict[str, dict[str, dict[str, Any]]]:
     """All records: a dictionary of kinds, each a dictionary of units by name."""
     found = _stipple.records()
     return {kind: {unit["name"]: unit for unit in found[kind]} for kind in _KINDS}
 
 
-def list(kind=None):
-    """Names and summaries of units: of one kind ("generators", "scrambles", "warps", "analyzers",
-    "formats"), or of all kinds in a dictionary."""
+@overload
+def list(kind: None = None) -> dict[str, dict[str, str]]: ...
+@overload
+def list(kind: str) -> dict[str, str]: ...
+def list(kind: str | None = None) -> dict[str, Any]:
+    """Names and summaries of units: a dictionary of one kind ("generators", "scrambles", "warps",
+    "analyzers", "formats"), or a dictionary of the dictionaries of all kinds. Raises Error for
+    another kind."""
     if kind is None:
         return {kind: list(kind) for kind in _KINDS}
-    if kind not in _KINDS:
+    if text("kind", kind, "a kind of units") not in _KINDS:
         raise Error(f"there is no kind of units {kind!r}; there are {', '.join(_KINDS)}")
     return {name: unit["summary"] for name, unit in records()[kind].items()}
 
 
-def find(name, kinds=_KINDS):
+def find(name: str, kinds: Iterable[str] = _KINDS) -> dict[str, Any] | None:
     """The record of a unit by name or alias; None if there is none."""
     for kind in kinds:
         for unit in records()[kind].values():
@@ -36,7 +46,7 @@ def find(name, kinds=_KINDS):
     return None
 
 
-def option_text(option):
+def option_text(option: dict[str, Any]) -> str:
     """Describes an option as an argument of a call."""
     name = option["name"].replace("-", "_")
     allowed = "|".join(option.get("choices", ())) or option.get("range", "")
@@ -46,9 +56,10 @@ def option_text(option):
     return head + "\n" + textwrap.indent(textwrap.fill(option["help"], 92), "    ")
 
 
-def describe(name):
-    """Documents a unit: summary, source, options and results."""
-    unit = find(name)
+def describe(name: str) -> str:
+    """Documents a unit: summary, source, options and results, as a text. Raises Error if there is no
+    unit of this name."""
+    unit = find(text("name", name, "the name of a unit"))
     if unit is None:
         raise Error(f"there is no unit {name!r}; stipple.list() names all")
     parts = [unit["name"] + ": " + unit["summary"], "Source: " + unit["source"]]

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: MIT
+"""Tables of pandas and polars as points, and points as tables."""
+
+import json
+import sys
+import types
+
+import numpy as np
+import pytest
+
+import stipple
+
+PARAMETERS = {"parameters": [{"name": "a", "range": [2, 3]}, {"name": "m", "levels": ["y", "x"]},
+                             {"name": "k", "integers": [1, 4]}]}
+
+
+class Series:
+    """As of polars: strings are an array of objects, and an Enum has categories."""
+
+    def __init__(self, name, values, dtype=None):
+        self.name, self.values, self.dtype = name, list(values), dtype
+
+    def to_numpy(self):
+        words = any(isinstance(value, str) for value in self.values)
+        return np.array(self.values, dtype=object if words else None)
+
+
+class DataFrame:
+    def __init__(self, columns):
+        self.series = {series.name: series for series in columns}
+
+    columns = property(lambda self: list(self.series))
+
+    def to_numpy(self):
+        return np.column_stack([series.to_numpy() for series in self.series.values()])
+
+    def __getitem__(self, name):
+        return self.series[name]
+
+
+def stand_in():
+    module = types.ModuleType("polars")
+    module.Series, module.DataFrame = Series, DataFrame
+    module.Enum = lambda words: types.SimpleNamespace(categories=words)
+    return module
+
+
+@pytest.fixture(params=["pandas", "stand-in", "polars"])
+def library(request, monkeypatch):
+    """The name for as_frame, and what makes a table of a dictionary of lists."""
+    if request.param == "pandas":
+        import pandas
+
+        return "pandas", pandas.DataFrame
+    if request.param == "stand-in":
+        monkeypatch.setitem(sys.modules, "polars", stand_in())
+        return "polars", lambda columns: DataFrame([Series(*column) for column in columns.items()])
+    return "polars", pytest.importorskip("polars").DataFrame
+
+
+def test_points_become_tables_and_back(library, tmp_path):
+    kind, _ = library
+    points = stipple.generate("sobol", 64, parameters=PARAMETERS, return_meta=True)
+    table = stipple.generate("sobol", 64, parameters=PARAMETERS, as_frame=kind)
+    assert list(table.columns) == ["a", "m", "k"]
+    assert list(table["m"].to_numpy()) == [["y", "x"][int(place)] for place in points[:, 1]]
+    assert np.array_equal(table["a"].to_numpy(), points[:, 0])
+    stipple.write(tmp_path / "points.csv", points)
+    stipple.write(tmp_path / "table.csv", table)
+    lines = [(tmp_path / name).read_text() for name in ("points.csv", "table.csv")]
+    assert lines[0] == lines[1] and lines[0].startswith("a,m,k\n2,y,1\n")
+    stipple.write(tmp_path / "table.json", table)
+    meta = json.loads((tmp_path / "table.json").read_text())["meta"]
+    assert meta["columns"] == ["a", "m", "k"] and meta["levels"] == {"m": ["y", "x"]}
+    domain = points.meta["domain"]
+    for analyzer in ("moments", "chi-square"):
+        assert stipple.analyze(analyzer, table, domain=domain) == stipple.analyze(analyzer, points)
+    assert ">m<" in stipple.plot(table).svg
+    words = repr(stipple.analyze("moments", table, domain=domain)).splitlines()[0]
+    assert "a, m, k" in words
+
+
+def test_tables_are_points_for_all_calls(library, tmp_path):
+    kind, frame = library
+    x = stipple.generate("halton", 32, start=1)
+    table = frame({"u": x[:, 0], "v": x[:, 1]})
+    disk = stipple.warp(table, "disk")
+    assert np.array_equal(disk, stipple.warp(x, "disk")) and disk.meta["domain"] == "disk"
+    assert np.array_equal(stipple.scramble(table, "owen"), stipple.scramble(x, "owen"))
+    there = frame({"u": disk[:, 0], "v": disk[:, 1]})
+    assert np.allclose(stipple.inverse(there, "disk"), x) and np.allclose(stipple.pdf(there, "disk"), 1 / np.pi)
+    assert stipple.analyze("star-discrepancy", table) == stipple.analyze("star-discrepancy", x)
+    stipple.write(tmp_path / "two.csv", [table, table])
+    assert [set.meta["columns"] for set in stipple.read(tmp_path / "two.csv")] == [["u", "v"]] * 2
+    assert "lt;html" in stipple.report(tmp_path / "a.html", {"a": table, "b": x})._repr_html_()
+    assert ">u<" in stipple.plot(table).svg
+    assert np.array_equal(stipple.warp(stipple.generate("halton", 32, start=1, as_frame=kind), "disk"), disk)
+    frames = stipple.generate("random", 4, 5, sets=2, as_frame=kind)
+    assert [list(one.columns) for one in frames] == [["x1", "x2", "x3", "x4", "x5"]] * 2
+
+
+def test_words_without_categories_are_sorted_as_in_files(library, tmp_path):
+    _, frame = library
+    table = frame({"m": ["b", "c", "b", "a"], "n": [1, 2, 3, 4]})
+    stipple.write(tmp_path / "a.csv", table)
+    assert (tmp_path / "a.csv").read_text() == "m,n\nb,1\nc,2\nb,3\na,4\n"
+    stipple.write(tmp_path / "a.json", table)
+    with pytest.warns(stipple.Note, match="0 a, 1 b, 2 c"):
+        read = stipple.read(tmp_path / "a.csv")
+    assert np.array_equal(read, stipple.read(tmp_path / "a.json")) and read.meta["levels"] == {"m": ["a", "b", "c"]}
+
+
+@pytest.mark.parametrize("columns,message", [
+    ({"a": [0.5, float("nan")]}, r"x\[1, 0\] is nan"),
+    ({"a": ["x", None]}, r"x\['a'\]\[1\] is None; expected a word"),
+    ({"a": [True, False]}, r"x\['a'\] has elements of type bool; expected numbers or words"),
+    ({}, "there are no points"),
+    ({"a": []}, "no points|no array"),
+])
+def test_tables_of_other_things_are_refused(library, columns, message):
+    _, frame = library
+    with pytest.raises(stipple.Error, match=message) as caught:
+        stipple.analyze("moments", frame(columns))
+    assert caught.value.kind == "input"
+
+
+def test_pandas_has_further_kinds_of_columns():
+    import pandas
+
+    x = stipple.generate("sobol", 16)
+    numbers = pandas.DataFrame({"a": x[:, 0], "b": pandas.array(x[:, 1], "Float64")})
+    assert stipple.analyze("moments", numbers) == stipple.analyze("moments", x)
+    numbers.loc[3, "b"] = pandas.NA
+    with pytest.raises(stipple.Error, match=r"x\['b'\]\[3\] is <NA>; expected a number"):
+        stipple.analyze("moments", numbers)
+    with pytest.raises(stipple.Error, match="x has two columns 'a'"):
+        stipple.analyze("moments", pandas.DataFrame(x, columns=["a", "a"]))
+    assert stipple.analyze("moments", pandas.DataFrame(x)) == stipple.analyze("moments", x)
+    with pytest.raises(stipple.Error, match="shape"):
+        stipple.analyze("moments", pandas.Series([1.0, 2.0]))
+    times = pandas.DataFrame({"t": pandas.to_datetime(["2020-01-01", "2020-01-02"])})
+    with pytest.raises(stipple.Error, match="expected numbers or words"):
+        stipple.analyze("moments", times)
+
+
+# pandas keeps attrs in selections of rows; other columns are another domain.
+def test_tables_of_pandas_know_their_domain():
+    table = stipple.generate("sobol", 64, warp="disk", as_frame=True)
+    assert stipple.analyze("chi-square", table[:32])._record[3] == "disk"
+    with pytest.raises(stipple.Error, match="outside the domain unit-cube"):
+        stipple.analyze("moments", table[["y", "x"]])
+    assert stipple.warp(stipple.generate("random", 8), "sphere").to_pandas().columns.tolist() == ["x", "y", "z"]
+    plain = stipple.Points((4, 2))
+    plain[:] = 0.5
+    assert plain.to_pandas().shape == (4, 2)
+    with pytest.raises(stipple.Error, match="a table is of one set"):
+        stipple.generate("random", 4, sets=2, return_meta=True).to_pandas()
+
+
+def test_missing_libraries_are_named(monkeypatch):
+    for name in ("pandas", "polars"):
+        monkeypatch.setitem(sys.modules, name, None)
+        with pytest.raises(stipple.Error, match=f"the package {name}, which is not installed"):
+            stipple.generate("random", 4, as_frame=name)

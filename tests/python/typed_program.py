@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: MIT
+"""Uses each public name, with the types that mypy --strict finds; run by test_types.py."""
+
+from pathlib import Path
+from typing import assert_type
+
+import numpy as np
+from numpy.typing import NDArray
+
+import stipple
+
+Floats = NDArray[np.float64]
+
+x = stipple.generate("sobol", 256, 2, scramble="owen", seed=3)
+assert_type(x, Floats)
+assert_type(stipple.generate(("halton", {"scramble": "owen"}), n=16, bounds=(0, 1), threads=1), Floats)
+assert_type(stipple.generate("halton", n=16, leap=409, bounds=[(0, 1), (2, 3)]), Floats)
+points = stipple.generate("sobol", 64, warp=["owen", "disk"], return_meta=True)
+assert_type(points, stipple.Points)
+assert_type(points.copy(), stipple.Points)
+sets = stipple.generate("random", 64, sets=2)
+assert_type(sets, Floats | list[Floats])
+assert_type(stipple.generate("random", 64, sets=2, return_meta=True), stipple.Points | list[stipple.Points])
+frame = stipple.generate("random", 64, as_frame=True)
+stipple.write("frame.csv", frame)
+parameters = {"parameters": [{"name": "a", "range": [2, 3]}]}
+assert_type(stipple.generate("random", 64, parameters=parameters), Floats)
+
+sequence = stipple.sequence("halton", d=2, scramble="owen")
+assert_type(sequence, stipple.Sequence)
+assert_type(sequence[0:10], Floats)
+assert_type(sequence.d, int)
+assert_type(next(sequence.blocks(16)), Floats)
+
+disk = stipple.warp(x, "disk", method="concentric")
+assert_type(disk, stipple.Points)
+assert_type(stipple.warp(x, ("disk", {"radius": 2})), stipple.Points)
+assert_type(stipple.inverse(disk, "disk", method="concentric"), Floats)
+assert_type(stipple.pdf(disk, "disk"), Floats)
+assert_type(stipple.scramble(x, "owen", seed=7), Floats)
+
+report = stipple.analyze("star-discrepancy", x)
+assert_type(report, stipple.Report)
+assert_type(report.unmet, list[str])
+print(f"{report.value:.4f}", list(report), len(report), report["worst_box.volume"])
+
+
+def product(points: Floats) -> Floats:
+    values: Floats = points[:, 0] * points[:, 1]
+    return values
+
+
+assert_type(stipple.analyze("integration", x, integrand=product, exact=0.25), stipple.Report)
+integral = stipple.integrate(product, "sobol:scramble=owen", 64, 2, confidence=0.9, mean=True)
+assert_type(integral, stipple.Integral)
+assert_type(integral.standard_error, float)
+assert_type(integral.estimates, Floats)
+
+stipple.write(Path("points.csv"), x, precision=3, header=False)
+back = stipple.read(Path("points.csv"), threads=2)
+assert_type(back, stipple.Points | list[stipple.Points])
+
+study = stipple.study(["random", ("halton", {})], "star-discrepancy", n=[16, 64, 256], d=2, seeds=3, keys="value")
+assert_type(study, stipple.Study)
+assert_type(study[0], stipple.StudyValue)
+assert_type(study[0].value, float | None)
+assert_type(study.means(0.9)[0], stipple.StudyMean)
+
+picture = stipple.plot({"disk": disk, "square": x}, title="two", width=300)
+assert_type(picture, stipple.Picture)
+assert_type(picture.svg, str)
+picture.save("two.pdf")
+assert_type(stipple.plot(study, key="value"), stipple.Picture)
+assert_type(stipple.plot({"a": stipple.analyze("periodogram", x)}), stipple.Picture)
+page = stipple.report("page.html", {"disk": disk}, progress=lambda share: None)
+assert_type(page, stipple.Page)
+assert_type(page.path, str)
+
+assert_type(stipple.list(), dict[str, dict[str, str]])
+assert_type(stipple.list("warps"), dict[str, str])
+assert_type(stipple.describe("halton"), str)
+try:
+    stipple.generate("haltn")
+except stipple.Error as error:
+    assert_type(error.kind, str)
+    assert_type(error.hint, str)
+assert issubclass(stipple.Note, UserWarning)
+print(stipple.__version__)
+
+# Wrong calls
+stipple.generate("halton", "10")  # error: call-overload
+stipple.generate(3)  # error: call-overload
+stipple.generate("halton", bounds=3)  # error: call-overload
+stipple.read("a.csv", formt="csv")  # error: arg-type
+stipple.integrate(3, "random", 10, 2)  # error: arg-type
+stipple.plot(x, titel="x")  # error: call-overload
+stipple.study("random", "moments", seeds="3")  # error: arg-type
+stipple.write(3, x)  # error: arg-type
