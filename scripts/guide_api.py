@@ -9,6 +9,7 @@ import os
 import re
 import sys
 import tempfile
+import textwrap
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -97,13 +98,16 @@ def python_entry(node, level, prefix=""):
     words = ast.get_docstring(node) or ""
     if isinstance(node, ast.ClassDef):
         text = f"\n{'#' * level} class {prefix}{node.name}\n\n"
+        fields = [ast.unparse(inner) for inner in node.body if isinstance(inner, ast.AnnAssign)]
+        words += "\n\n" + "\n".join(fields) if fields else ""
         text += f"```text\n{words}\n```\n" if words else ""
         for inner in node.body:
             if isinstance(inner, ast.FunctionDef) and not inner.name.startswith("_") and ast.get_docstring(inner):
                 text += python_entry(inner, level + 1, f"{node.name}.")
         return text
-    signature = ast.unparse(node.args)
-    return f"\n{'#' * level} {prefix}{node.name}\n\n```text\n{node.name}({signature})\n\n{words}\n```\n"
+    result = f" -> {ast.unparse(node.returns)}" if node.returns else ""
+    signature = textwrap.fill(f"{node.name}({ast.unparse(node.args)}){result}", 96, subsequent_indent="    ")
+    return f"\n{'#' * level} {prefix}{node.name}\n\n```text\n{signature}\n\n{words}\n```\n"
 
 
 def python_page():
@@ -117,8 +121,7 @@ def python_page():
         for node in ast.parse((folder / file).read_text(encoding="utf-8")).body:
             if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and not node.name.startswith("_"):
                 known[node.name] = node
-    shown = [name for name in public if name in known] + ["Report", "Picture", "Page", "Sequence", "Study"]
-    text += "".join(python_entry(known[name], 3) for name in dict.fromkeys(shown))
+    text += "".join(python_entry(known[name], 3) for name in public if name in known)
     qmc = ast.parse((folder / "qmc.py").read_text(encoding="utf-8"))
     text += f"\n## stipple.qmc\n\n```text\n{ast.get_docstring(qmc)}\n```\n"
     for node in qmc.body:
