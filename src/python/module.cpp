@@ -56,6 +56,7 @@ PointSet set_of(const Given& given) {
     points.provenance.domain = domain;
     points.provenance.count = points.count();
     points.provenance.dimension = points.dimension();
+    complete(points.provenance);
     return points;
 }
 
@@ -189,8 +190,11 @@ py::array warp_density(const std::string& text, const Settings& settings, const 
     return column(chain_to(spec_of(text, settings), points.dimension()).density(points.flat()));
 }
 
-py::array density(const std::string& domain, const Array& rows) {
-    return column(densities(points_of(rows, domain)));
+/// Density of the points: that of biased warps which made them, or that of their domain.
+py::array density(const Given& given) {
+    const PointSet points = set_of(given);
+    auto biased = biased_densities(points, {});
+    return column(biased.empty() ? densities(points) : std::move(biased));
 }
 
 /// Returns results, their text, unmet expectations, and the record that report_chart() takes.

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 import io
+import json
 import os
 import re
 import signal
@@ -62,7 +63,7 @@ def test_meta_is_kept_by_the_array_alone():
 def test_some_of_the_points_keep_their_domain_names_and_levels():
     parameters = {"parameters": [{"name": "a", "range": [2, 3]}, {"name": "m", "levels": ["x", "y"]}]}
     points = stipple.generate("sobol", 64, parameters=parameters, return_meta=True)
-    kept = {key: points.meta[key] for key in ("domain", "columns", "levels")}
+    kept = {key: points.meta[key] for key in ("domain", "columns", "levels", "warps")}
     assert kept["columns"] == ["a", "m"] and kept["levels"] == {"m": ["x", "y"]}
     mask = points[:, 0] > 2.5
     indices = [3, 1, 1]
@@ -81,9 +82,39 @@ def test_some_of_the_points_keep_their_domain_names_and_levels():
         stipple.analyze("moments", disk[:0])
     sets = stipple.generate("random", 8, sets=3, warp="disk", return_meta=True)
     assert sets[1].meta == sets.meta[1] and sets[1:].meta == sets.meta[1:]
-    assert sets[:, :4].meta == [{"domain": "disk"}] * 3
+    assert sets[:, :4].meta == [{"domain": "disk", "warps": ["disk"]}] * 3
     assert sets[[2, 0]].meta == [sets.meta[2], sets.meta[0]]
-    assert sets[0, :4].meta == {"domain": "disk"} and sets[:, 0].meta is None
+    assert sets[0, :4].meta == sets[1:2, :4].meta[0] and sets[:, 0].meta is None
+
+
+# The naive disk has the density 1 / (2 pi r), which its points and parts of them tell of.
+def test_meta_of_warped_points_is_that_of_generated_ones(results):
+    x = stipple.generate("random", 4096, seed=3, return_meta=True)
+    naive = stipple.warp(x, "disk", method="naive")
+    made = stipple.generate("random", 4096, seed=3, warp="disk:method=naive", return_meta=True)
+    assert np.array_equal(naive, made)
+    assert {k: v for k, v in naive.meta.items() if k != "command"} == {k: v for k, v in made.meta.items() if k != "command"}
+    ones = lambda points: np.ones(len(points))  # noqa: E731
+    for points in (naive, made, naive[:2048]):
+        there = stipple.analyze("integration", points, expression="1").expression
+        here = stipple.analyze("integration", points, integrand=ones)["lambda"]
+        assert here.estimate == pytest.approx(np.pi, rel=0.03) == there.estimate
+    there = results("integration", "--expression=1", "--generate", "random", "-n4096", "--seed=3", "-w", "disk:method=naive")
+    found = stipple.analyze("integration", made, expression="1").expression
+    assert dict(found) == {key: there["expression"][key] for key in found}
+
+
+def test_parameters_give_the_number_of_coordinates(run, tmp_path):
+    file = tmp_path / "p.json"
+    file.write_text('{"parameters": [{"name": "a", "range": [2, 3]}, {"name": "b", "range": [0, 1]}, {"name": "m", "levels": ["x", "y"]}]}')
+    there = np.load(io.BytesIO(run("generate", "sobol", "-n8", "--parameters", str(file), "--format=npy")))
+    for parameters in (file, str(file), json.loads(file.read_text())):
+        assert np.array_equal(stipple.generate("sobol", 8, parameters=parameters), there) and there.shape == (8, 3)
+    with pytest.raises(stipple.Error) as caught:
+        stipple.generate("sobol", 8, 2, parameters=file)
+    assert caught.value.kind in ("usage", "input")
+    study = stipple.study("sobol", "moments", n=8, parameters=file)
+    assert {row.dimension for row in study} == {3} and not any(row.failure for row in study)
 
 
 def test_reports_say_of_how_many_points_they_are():
@@ -391,6 +422,52 @@ def test_pictures_and_pages(tmp_path):
     figure, axes = pyplot.subplots()
     assert stipple.plot(x, axes) is axes and len(axes.collections) == 1
     pyplot.close(figure)
+
+
+def test_charts_on_axes_have_what_pictures_have():
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("svg")
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots(2, 3)
+    spectra = {name: stipple.analyze("periodogram", stipple.generate(name, 64)) for name in ("halton", "random")}
+    assert stipple.plot(spectra, ax=axes[0, :2]) is not None and stipple.plot(spectra["random"], axes[1, 2]) is axes[1, 2]
+    for ax, key in zip(axes[0], ("power", "anisotropy_db")):
+        curves = {line.get_label(): line for line in ax.lines}
+        for name, spectrum in spectra.items():
+            assert np.array_equal(curves[name].get_xdata(), spectrum.radial.frequency)
+            assert np.array_equal(curves[name].get_ydata(), spectrum.radial[key])
+        assert {"halton", "random"} <= {text.get_text() for text in ax.get_legend().get_texts()}
+    assert axes[0, 0].get_ylabel() == "radial power" and axes[0, 1].get_xlabel() == "frequency"
+    study = stipple.study(["random", "sobol:scramble=owen"], "star-discrepancy", n=[16, 64, 256], seeds=5)
+    stipple.plot(study, ax=axes[1, 0], key="value", title="a study")
+    means = [mean for mean in study.means() if mean.key == "value" and mean.generator == "random"]
+    [curve] = [line for line in axes[1, 0].lines if line.get_label().startswith("random")]
+    assert list(curve.get_xdata()) == [16, 64, 256] and np.allclose(curve.get_ydata(), [mean.mean for mean in means])
+    assert axes[1, 0].get_xscale() == axes[1, 0].get_yscale() == "log" and axes[1, 0].get_title() == "a study"
+    same = {str(seed): stipple.analyze("star-discrepancy", stipple.generate("random", 64, seed=seed)) for seed in range(8)}
+    stipple.plot(same, ax=axes[1, 1])
+    assert len(axes[1, 1].patches) == 1 and axes[1, 1].get_ylabel() == "sets"
+    with pytest.raises(stipple.Error, match="ax has 3 axes; the picture has 2 panels"):
+        stipple.plot(spectra, ax=axes[0])
+    with pytest.raises(stipple.Error, match="show 2 coordinates"):
+        stipple.plot(stipple.generate("random", 8, 3), ax=axes[0, 0])
+    pyplot.close(figure)
+
+
+def test_studies_have_pictures_as_the_program_draws_them(run, tmp_path):
+    study = stipple.study(["random", "sobol:scramble=owen"], "star-discrepancy", n=[16, 64, 256], seeds=5)
+    table = tmp_path / "study.csv"
+    run("study", "--generators", "random,sobol:scramble=owen", "--analyze", "star-discrepancy", "-n", "16,64,256", "--seeds", "5",
+        "-o", str(table))
+    run("plot", str(table), "-o", str(tmp_path / "there.svg"))
+    there = (tmp_path / "there.svg").read_text()
+    for picture in (stipple.plot(study), stipple.plot([row for row in study if row.key == "value"])):
+        assert re.findall("<path[^>]* d=.*?>", picture.svg) == re.findall("<path[^>]* d=.*?>", there)
+    with pytest.raises(stipple.Error, match="key"):
+        stipple.plot(study, key="nothing")
+    with pytest.warns(stipple.Note, match="key selects one"):
+        stipple.plot(stipple.study("random", "nearest-neighbor", n=[16, 64]))
 
 
 def test_units_are_listed_and_described():

@@ -78,7 +78,7 @@ def test_columns_keep_what_is_true_of_them():
     assert domains == {(0, 1): "disk", (2,): "normal", (0, 1, 2): "disk@1,2 x normal@3", (2, 0, 1): "disk@2,3 x normal@1",
                        (0,): None, (3,): "unit-cube", (3, 2): "normal@2 x unit-cube@1", (0, 0): None}
     disk = stipple.generate("random", 16, warp="disk", return_meta=True)
-    assert "domain" not in disk[:, :1].meta and disk[:4, :].meta == {"domain": "disk"}
+    assert "domain" not in disk[:, :1].meta and disk[:4, :].meta["domain"] == "disk"
     sets = stipple.generate("random", 8, 3, sets=2, return_meta=True)
     assert [meta["domain"] for meta in sets[:, ::2, 1:].meta] == ["unit-cube"] * 2
     assert sets[1, :, :2].meta["domain"] == "unit-cube" and sets[0, 1:3, [0, 1]].meta is None

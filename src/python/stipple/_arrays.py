@@ -92,7 +92,7 @@ def _meta_of_part(points: Points, index: Any) -> Any:
         if not isinstance(meta, dict) or all_columns and _is_whole(rows, points.shape[-2]):
             return meta
         if all_columns:
-            return {key: meta[key] for key in ("domain", "columns", "levels") if key in meta}
+            return {key: meta[key] for key in ("domain", "columns", "levels", "warps") if meta.get(key)}
         return _meta_of_columns(meta, d, np.arange(d)[columns].tolist())
 
     if points.ndim == 2:
@@ -113,8 +113,8 @@ class Points(np.ndarray[Any, np.dtype[np.float64]]):
     meta: a dictionary of the generator, its options, the seed, warps, domain, names of columns ...;
     for several sets a list of them. It is kept by copies and pickles.
 
-    A selection of points (x[:50], x[::2], x[mask], x[[3, 1]]) keeps the domain and the names and
-    levels of the columns. A selection of columns (x[:, :2]) keeps their names and levels, and the
+    A selection of points (x[:50], x[::2], x[mask], x[[3, 1]]) keeps the domain, the warps, and the
+    names and levels of the columns. A selection of columns (x[:, :2]) keeps their names and levels, and the
     domain if it is that of these columns alone: of a cube, a box, parameters that are independent of
     the others, or a whole factor of a product. Results of arithmetic are plain arrays, whose meta is
     None.

@@ -348,10 +348,9 @@ def _integral_of(function: Callable[[Floats], ArrayLike], one: Given,
     mean = flag("mean", options.pop("mean", False))
     if options:
         raise Error(f"{next(iter(options))}: a function as integrand takes `exact` and `mean` only")
-    rows, domain, _ = one
-    values = _values(function, rows)
+    values = _values(function, one[0])
     if not mean:
-        values = values / _stipple.density(domain, rows)
+        values = values / _stipple.density(one)
     found = {"estimate": float(np.mean(values))}
     if exact is not None:
         number = real("exact", exact, -np.inf, np.inf, "a number")
