@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Search for a Latin hypercube whose points become parameters, some of which may be discrete or
-// under constraints.
+// Coordinates of the points of a Latin hypercube with known strata, and the search for one whose
+// points become parameters, some of which may be discrete or under constraints.
 //
 // Outcomes     along discrete axes, distances are those of outcomes, all categories being equally
 //              far from each other, and points are in the middles of their strata.
@@ -11,12 +11,39 @@
 //              that satisfy them, estimated from at least 16 random ones per stratum.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
+#include "generators/generator.hpp"
 #include "generators/stratified/latin_hypercube_search/search.hpp"
-#include "generators/stratified/latin_places.hpp"
 
 namespace stipple::generators {
+
+/// Points anywhere in their strata, or in the middle. Strata have equal widths or, if constraints
+/// allow no such Latin hypercube, hold equal fractions of the points of the cube that have an image.
+class LatinPlaces {
+  public:
+    LatinPlaces(const Plan& plan, bool centered)
+        : plan_(plan), in_middle_(plan.dimension, centered) {}
+
+    /// Puts points into the middles of their strata along this coordinate.
+    void put_in_middles(std::size_t coordinate) { in_middle_[coordinate] = true; }
+
+    /// Sets the boundaries of the strata along each coordinate, including both ends.
+    void put_between(std::vector<std::vector<double>> edges) { edges_ = std::move(edges); }
+
+    /// Coordinate of point i along axis `coordinate`, on which the point is in this stratum.
+    [[nodiscard]] double at(std::size_t coordinate, std::uint64_t i, double stratum) const;
+    [[nodiscard]] double middle(std::size_t coordinate, double stratum) const;
+
+  private:
+    [[nodiscard]] double inside(std::size_t coordinate, double x, double stratum) const;
+
+    Plan plan_;
+    std::vector<bool> in_middle_;
+    std::vector<std::vector<double>> edges_;  ///< empty: strata are of equal width
+};
 
 /// Adapts the search, whose points are at `places`, to plan.destination.
 /// @throws Error(usage), Error(input) if no start is found

@@ -8,8 +8,17 @@
 //     strength 2   for n = p^2, p prime, and d <= p + 1: a Latin hypercube in which also, for any
 //                  two coordinates, each of the p x p squares holds exactly one point. It is made
 //                  from an orthogonal array (orthogonal_points.hpp).
-//     --sliced, --nested   parts of the points are Latin hypercubes, too (latin_structure.hpp)
-//     --extend     new points in the strata that given ones leave empty (latin_extension.hpp)
+//     --sliced     n = m K points in K slices, one after the other, each a Latin hypercube of m
+//                  strata. In coordinate k, point j of slice s is in the stratum  K c + phi_kc(s)
+//                  of n,  c = pi_ks(j)  being its stratum of m; pi and phi are independent random
+//                  permutations, of m strata and of K slices
+//     --nested     the first N1 of n = N1 t points are a Latin hypercube. In coordinate k they are
+//                  in the strata  t c + o_kc,  c = pi_k(i),  with random o in {0, ..., t - 1}; the
+//                  other points are in the remaining strata, in random order
+//     --extend     new points in the strata [l/n, (l+1)/n) that given ones leave empty. If no two
+//                  given ones share a stratum, as in a Latin hypercube whose number of points
+//                  divides n, the result is a Latin hypercube; else one stratum stays empty for
+//                  each surplus point
 //     --optimize   the permutations are the best that a search finds for a criterion
 //                  (latin_hypercube_search); it keeps slices, nested and given points, and takes
 //                  named parameters into account (latin_destination.hpp)
@@ -23,10 +32,14 @@
 //         is that of the middles of strata, with a certificate if all designs were tried.
 // Source  M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239-245,
 //         doi:10.1080/00401706.1979.10489755; B. Tang, J. Amer. Stat. Assoc. 88 (1993) 1392-1397,
-//         doi:10.1080/01621459.1993.10476423.
+//         doi:10.1080/01621459.1993.10476423; P. Z. G. Qian, J. Amer. Statist. Assoc. 107 (2012)
+//         393-399, doi:10.1080/01621459.2011.644132 (sliced); P. Z. G. Qian, Biometrika 96 (2009)
+//         957-970, doi:10.1093/biomet/asp045 (nested); C. J. Sallaberry, J. C. Helton, S. C. Hora,
+//         Reliab. Eng. Syst. Saf. 93 (2008) 1047-1059, doi:10.1016/j.ress.2007.04.005 (extension).
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -34,12 +47,11 @@
 #include "core/text.hpp"
 #include "generators/given_points.hpp"
 #include "generators/stratified/latin_destination.hpp"
-#include "generators/stratified/latin_extension.hpp"
 #include "generators/stratified/latin_hypercube_search/search.hpp"
-#include "generators/stratified/latin_structure.hpp"
 #include "generators/stratified/orthogonal_points.hpp"
 #include "io/files.hpp"
 #include "math/combinatorics/permutation.hpp"
+#include "math/combinatorics/splitmix64.hpp"
 
 namespace stipple::generators::latin_hypercube {
 namespace {
@@ -105,6 +117,57 @@ StrataOf permuted_strata(const Plan& plan) {
         Permutation(n, keys.bits(coordinate)).fill(static_cast<std::uint64_t>(index[0]), low);
         return n;
     };
+}
+
+/// Streams of random numbers for parts; stream 0 belongs to the plain hypercube.
+constexpr std::uint64_t first_keys = 1;
+constexpr std::uint64_t second_keys = 2;
+
+/// Strata by `stratum`, a function of coordinate and index.
+StrataOf strata_by(std::uint64_t parts, auto stratum) {
+    return [=](std::size_t coordinate, std::span<const double> index, std::span<double> low) {
+        for (std::size_t j = 0; j < index.size(); ++j)
+            low[j] = static_cast<double>(stratum(coordinate, static_cast<std::uint64_t>(index[j])));
+        return parts;
+    };
+}
+
+/// @param slices divides the plan's count
+StrataOf sliced_strata(const Plan& plan, std::uint64_t slices) {
+    const std::uint64_t n = plan.count;
+    const std::uint64_t m = n / slices;
+    const PermutationFamily in_slice(m, plan.dimension * slices,
+                                     stratified_numbers(plan, first_keys));
+    const PermutationFamily to_slices(slices, plan.dimension * m,
+                                      stratified_numbers(plan, second_keys));
+    return strata_by(n, [=](std::uint64_t k, std::uint64_t i) {
+        const std::uint64_t s = i / m;
+        const std::uint64_t coarse = in_slice(k * slices + s, i % m);
+        return slices * coarse + to_slices(k * m + coarse, s);
+    });
+}
+
+/// @param first divides the plan's count
+StrataOf nested_strata(const Plan& plan, std::uint64_t first) {
+    const std::uint64_t n = plan.count;
+    const std::uint64_t t = n / first;
+    const PermutationFamily of_first(first, plan.dimension, stratified_numbers(plan, first_keys));
+    const PermutationFamily of_rest(std::max<std::uint64_t>(1, n - first), plan.dimension,
+                                    stratified_numbers(plan, first_keys + 2));
+    const Rng offsets = stratified_numbers(plan, second_keys);
+    return strata_by(n, [=](std::uint64_t k, std::uint64_t i) {
+        const auto offset = [&](std::uint64_t coarse) {
+            return offsets.below(k * first + coarse, t);
+        };
+        if (i < first) {
+            const std::uint64_t coarse = of_first(k, i);
+            return t * coarse + offset(coarse);
+        }
+        const std::uint64_t rank = of_rest(k, i - first);
+        const std::uint64_t coarse = rank / (t - 1);
+        const std::uint64_t fine = rank % (t - 1);
+        return t * coarse + fine + (fine >= offset(coarse));
+    });
 }
 
 constexpr const char* strong = "latin-hypercube of strength 2";
@@ -241,6 +304,50 @@ StrataOf strata_of(const Plan& plan, const Values& options) {
         return sliced_strata(plan, static_cast<std::uint64_t>(options[sliced]));
     if (options.given(nested)) return nested_strata(plan, whole_of(options, 0));
     return permuted_strata(plan);
+}
+
+std::size_t stratum_of(double x, std::size_t count) {
+    return std::min(static_cast<std::size_t>(x * static_cast<double>(count)), count - 1);
+}
+
+/// Number of given points in each stratum.
+std::vector<std::size_t> held(const PointSet& given, std::size_t coordinate, std::size_t count) {
+    std::vector<std::size_t> points(count);
+    for (std::size_t i = 0; i < given.count(); ++i)
+        ++points[stratum_of(given[i][coordinate], count)];
+    return points;
+}
+
+/// Design of `count` points: first the given ones, then others at random in empty strata. Spare
+/// rows hold the strata that stay empty.
+search::Design extended(const PointSet& given, std::size_t count, const Rng& rng) {
+    const std::size_t d = given.dimension();
+    std::vector<std::vector<search::Level>> empty(d);
+    std::size_t rows = count;
+    for (std::size_t k = 0; k < d; ++k) {
+        const auto points = held(given, k, count);
+        for (std::size_t l = 0; l < count; ++l)
+            if (points[l] == 0) empty[k].push_back(static_cast<search::Level>(l));
+        SplitMix64 draws(rng.bits(k));
+        for (std::size_t l = empty[k].size(); l > 1; --l)
+            std::swap(empty[k][l - 1], empty[k][draws.below(l)]);
+        rows = std::max(rows, given.count() + empty[k].size());
+    }
+    search::Design design(count, rows, d);
+    for (std::size_t k = 0; k < d; ++k) {
+        const auto axis = design.along(k);
+        for (std::size_t i = 0; i < given.count(); ++i)
+            axis[i] = static_cast<search::Level>(stratum_of(given[i][k], count));
+        std::ranges::copy(empty[k], axis.subspan(given.count()).begin());
+    }
+    return design;
+}
+
+/// Number of the `count` strata along a coordinate that hold two or more points; a coordinate of 1
+/// belongs to the last.
+std::size_t crowded_strata(const PointSet& given, std::size_t coordinate, std::size_t count) {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        held(given, coordinate, count), [](std::size_t points) { return points > 1; }));
 }
 
 search::Design design_of(const Plan& plan, const StrataOf& strata) {

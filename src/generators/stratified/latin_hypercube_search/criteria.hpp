@@ -87,7 +87,6 @@ std::unique_ptr<Criterion> make_criterion(const Objective& objective, const Desi
                                           const Rules& rules, const RunContext& run = {});
 std::unique_ptr<Criterion> pair_criterion(const Objective& objective, const Design& design,
                                           const Rules& rules, const RunContext& run);
-std::unique_ptr<Criterion> correlation_criterion(const Design& design, const Rules& rules);
 
 /// Bytes that a criterion needs.
 double criterion_memory(const Objective& objective, const Design& design);
