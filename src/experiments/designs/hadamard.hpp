@@ -8,7 +8,7 @@
 //                                row is the previous one shifted by one, and the last is all -1
 //     n = p (p + 2) + 1          the same from the product of the characters of two twin primes
 //     n = 2 (q + 1), q = 1 mod 4 Paley II, from the symmetric conference matrix of order q + 1
-//     n = 4 v                    four circulant matrices of a table (goethals_seidel.hpp)
+//     n = 4 v                    four circulant matrices of a table (Goethals, Seidel)
 //     n = 4 q, q = 1 mod 4       Miyamoto, from the conference matrix of order q + 1 and a Hadamard
 //                                matrix of order q - 1
 //     n = 2 m                    H_m H_m / H_m -H_m (Sylvester)
@@ -23,13 +23,10 @@
 //         doi:10.1016/0097-3165(91)90008-5.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include "experiments/designs/goethals_seidel.hpp"
 
 namespace stipple::generators {
 
@@ -37,6 +34,8 @@ inline constexpr std::uint64_t most_hadamard = std::uint64_t{1} << 20;
 
 /// Whether a matrix of this order can be built; only multiples of 4 can.
 bool has_hadamard(std::uint64_t order);
+
+class GoethalsSeidel;
 
 class Hadamard {
   public:

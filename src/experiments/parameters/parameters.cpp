@@ -8,7 +8,7 @@
 //
 // Linear constraints on uniformly distributed parameters restrict these to a polytope, so that
 // densities remain known. If the polytope is less than a tenth of the ranges' volume, the cube is
-// mapped onto it, and no point is dropped (linear_part.hpp). Otherwise points are rejected, which
+// mapped onto it, and no point is dropped (LinearPart). Otherwise points are rejected, which
 // preserves neighbours and strata.
 //
 // Shape   one unit coordinate per parameter.
@@ -24,9 +24,7 @@
 //         errors.
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <mutex>
 
 #include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
