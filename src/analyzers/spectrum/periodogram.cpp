@@ -48,20 +48,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <memory>
-#include <numbers>
 #include <optional>
 
 #include "analyzers/analyzer.hpp"
 #include "analyzers/outside.hpp"
 #include "analyzers/rings.hpp"
-#include "analyzers/spectrum/periodogram_power.hpp"
 #include "core/error.hpp"
+#include "core/machine/large_pages.hpp"
 #include "core/machine/wide.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
+#include "math/fourier/grid_sum.hpp"
 #include "math/fourier/nufft.hpp"
+#include "math/fourier/transform.hpp"
 #include "math/functions/logarithm.hpp"
+#include "math/functions/powers.hpp"
 #include "math/functions/trigonometry.hpp"
 
 namespace stipple::analyzers::periodogram {
@@ -148,6 +151,106 @@ constexpr double floor_of_floats = 1e-13;
 constexpr std::uint64_t buffered_points = std::uint64_t{1} << 20;
 // Assumed number of points of larger sets.
 constexpr std::uint64_t most_points = std::uint64_t{1} << 30;
+
+/// The sums sum_j s_j and sum_j s_j^2.
+struct Strengths {
+    double sum = 0;
+    double squares = 0;
+};
+
+/// Sums the weights of points that arrive in blocks, possibly in several processes. Partial sums
+/// are merged in the order of the grids.
+class StrengthSums {
+  public:
+    void add(double strength) {
+        if (points_ == block) close();
+        block_.sum += strength;
+        block_.squares += strength * strength;
+        ++points_;
+    }
+
+    [[nodiscard]] Strengths total() {
+        if (sum_.empty()) return block_;
+        if (points_ > 0) close();
+        Strengths all;
+        sum_.copy_to({&all.sum, 1}, {});
+        squares_.copy_to({&all.squares, 1}, {});
+        return all;
+    }
+
+    void pack(Packer& to) {
+        close();
+        sum_.pack(to);
+        squares_.pack(to);
+    }
+    /// The points of this object must be whole blocks.
+    void merge(Unpacker& from) {
+        if (points_ > 0) close();
+        sum_.merge(from);
+        squares_.merge(from);
+    }
+
+  private:
+    /// Number of points per block; a divisor of the number of points per grid.
+    static constexpr std::uint64_t block = std::uint64_t{1} << 21;
+
+    void close() {
+        sum_.add({&block_.sum, 1}, std::abs(block_.sum), {});
+        squares_.add({&block_.squares, 1}, block_.squares, {});
+        block_ = {};
+        points_ = 0;
+    }
+
+    Strengths block_;
+    std::uint64_t points_ = 0;
+    ScaledGridSum sum_;
+    ScaledGridSum squares_;
+};
+
+/// Transform of the window on one axis, at the frequency f. Without a window it is 1 at 0; for hann
+/// 1/2 at 0 and -1/4 at 1 and -1; otherwise 0.
+double window_transform(std::int64_t f, bool hann) {
+    if (!hann) return f == 0 ? 1 : 0;
+    return f == 0 ? 0.5 : std::abs(f) == 1 ? -0.25 : 0;
+}
+
+/// Power at all frequencies from the sums at half of them; P(-f) = P(f) holds exactly.
+/// @param hann whether the points were weighted by the Hann window
+Grid power_of(const FourierSums& sums, const Strengths& strengths, bool hann,
+              const RunContext& run) {
+    const std::size_t last = sums.max_frequency;
+    const std::size_t width = 2 * last + 1;
+    Grid power{.rows = sums.values.size() / (last + 1), .columns = width, .values = {}};
+    fill_with_zeros(power.values, power.rows * width);
+    const double squared = hann ? whole_power(0.375, sums.dimension) : 1;
+    const double scale = 1 / (squared * strengths.squares);
+    for (std::size_t row = 0; row < power.rows; ++row) {
+        run.check_stop();
+        const auto* half = sums.values.data() + row * (last + 1);
+        double* values = power.values.data() + row * width;
+        double* mirrored = power.values.data() + (power.rows - 1 - row) * width;
+        for (std::size_t f = 0; f <= last; ++f)
+            values[last + f] = mirrored[last - f] = std::norm(half[f]) * scale;
+    }
+    const auto line = static_cast<std::int64_t>(width);
+    const auto reach = [&](std::size_t axis) { return hann && axis < sums.dimension ? 1 : 0; };
+    for (std::int64_t f2 = -reach(2); f2 <= reach(2); ++f2)
+        for (std::int64_t f1 = -reach(1); f1 <= reach(1); ++f1)
+            for (std::int64_t f0 = -reach(0); f0 <= reach(0); ++f0) {
+                if (f0 == 0 && f1 == 0 && f2 == 0) continue;
+                double shape = 1;
+                const std::int64_t f[] = {f0, f1, f2};
+                for (std::size_t k = 0; k < sums.dimension; ++k)
+                    shape *= window_transform(f[k], hann);
+                const double of = std::norm(sums.at({f0, f1, f2}) - shape * strengths.sum);
+                const std::int64_t middle = static_cast<std::int64_t>(power.values.size() / 2);
+                const std::int64_t at = middle + (f2 * line + f1) * line + f0;
+                power.values[static_cast<std::size_t>(at)] =
+                    of / ((squared - shape * shape) * strengths.squares);
+            }
+    power.values[power.values.size() / 2] = strengths.sum * strengths.sum / strengths.squares;
+    return power;
+}
 
 std::size_t default_frequency(std::uint64_t count, std::size_t dimension) {
     constexpr double most[] = {0, 65536, 1024, 64};

@@ -18,7 +18,7 @@
 //
 // Counts are integers, so with few groups X^2 takes few values. Its smallest values then have a
 // probability that is almost 0 for the continuous chi-square distribution. The lower tail is exact
-// if the counts can be enumerated (count_law.cpp). Otherwise, let q_s be the probability of the
+// if the counts can be enumerated (pearson.cpp). Otherwise, let q_s be the probability of the
 // most probable counts in the s groups with the smallest expectations, and F_f the chi-square
 // distribution function (F_0 = 1). With these s groups fixed and the others treated as continuous,
 // the probability is q_s F_(f-s). A ball contains about as many lattice points as its volume and
@@ -82,7 +82,7 @@ Tails chi_square_tails(double statistic, double freedom);
 Tails count_tails(double statistic, const Fit& fit);
 
 /// Probability that the statistic of n independent points is at most `statistic`, for at most n
-/// groups of equal probability; nullopt if it would take too long (count_law.cpp).
+/// groups of equal probability; nullopt if it would take too long.
 std::optional<double> exact_lower_tail(double statistic, std::uint64_t n, std::uint64_t groups);
 
 /// The same probability for two or more groups with the given expected numbers of points, whose sum
