@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Searches for the radius at which a process leaves exactly the wanted number of points. The same
-// darts mostly leave fewer points for a larger radius, and nearly the same points for a similar
-// one, so a few tries find exactly the count. If they skip it, other darts are tried. If eight sets
-// of darts fail, the surplus of the best set is removed, with a note.
+// Searches for the radius at which a process leaves exactly the wanted number of points, as
+// --count does (poisson_disk.cpp).
 #pragma once
 
 #include <cstdint>
