@@ -5,7 +5,6 @@
 #include <atomic>
 #include <latch>
 #include <memory>
-#include <new>
 #include <semaphore>
 #include <system_error>
 #include <thread>

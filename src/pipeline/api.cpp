@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // The public API except studies and pages: calls by name, and checks of the caller's arguments.
-#include <algorithm>
 #include <mutex>
 
 #include "core/error.hpp"

@@ -29,7 +29,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "analyzers/analyzer.hpp"
 #include "analyzers/uniformity/cube_rows.hpp"

@@ -22,7 +22,6 @@
 //         F. Campolongo, A. Saltelli, J. Cariboni, Comput. Phys. Commun. 182 (2011) 978-988,
 //         doi:10.1016/j.cpc.2010.12.039 (radial).
 
-#include <algorithm>
 #include <numeric>
 
 #include "core/error.hpp"

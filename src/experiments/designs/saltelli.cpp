@@ -16,8 +16,6 @@
 //         Commun. 181 (2010) 259-270, doi:10.1016/j.cpc.2009.09.018; A. Saltelli, Comput. Phys.
 //         Commun. 145 (2002) 280-297, doi:10.1016/S0010-4655(02)00280-1 (second order).
 
-#include <algorithm>
-
 #include "experiments/designs/levels.hpp"
 #include "experiments/designs/radial.hpp"
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "math/distributions/laws.hpp"
 #include "math/functions/cholesky.hpp"

@@ -2,8 +2,6 @@
 #include "experiments/quality/model_efficiency.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "core/parallel.hpp"

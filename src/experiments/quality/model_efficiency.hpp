@@ -17,7 +17,6 @@
 
 #include <cstddef>
 #include <span>
-#include <string>
 
 #include "stipple/run.hpp"
 

@@ -16,9 +16,6 @@
 //         doi:10.1080/00401706.1999.10485594.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "experiments/sensitivity/methods.hpp"

@@ -17,7 +17,6 @@
 //         latter due to M. J. W. Jansen, Comput. Phys. Commun. 117 (1999) 35-43. Pairs and the
 //         order of rows: A. Saltelli, Comput. Phys. Commun. 145 (2002) 280-297.
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <map>
 

@@ -28,7 +28,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 #include <span>
 #include <unordered_map>
 #include <utility>

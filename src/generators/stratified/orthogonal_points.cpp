@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "core/error.hpp"
 #include "math/combinatorics/permutation.hpp"
 #include "math/combinatorics/primes.hpp"

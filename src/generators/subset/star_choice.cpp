@@ -24,7 +24,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>

@@ -30,9 +30,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "generators/generator.hpp"
 #include "generators/given_points.hpp"

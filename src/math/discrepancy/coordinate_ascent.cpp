@@ -2,7 +2,6 @@
 #include "math/discrepancy/coordinate_ascent.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 

@@ -17,9 +17,6 @@
 
 #include "math/integrands/integrands.hpp"
 
-#include <cmath>
-#include <numbers>
-
 #include "math/combinatorics/draws.hpp"
 #include "math/functions/trigonometry.hpp"
 #include "math/geometry/planar_area.hpp"

@@ -20,7 +20,6 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 
 #include "core/error.hpp"
 #include "core/machine/int128.hpp"

@@ -2,7 +2,6 @@
 #include "math/neighbors/grid_nearest.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "core/parallel.hpp"

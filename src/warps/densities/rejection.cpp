@@ -18,7 +18,6 @@
 // Source  J. von Neumann, "Various techniques used in connection with random digits", NBS Applied
 //         Mathematics Series 12 (1951) 36-38.
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"

@@ -19,7 +19,6 @@
 // Promise density 1 / (W H), with --pixel 1. For xi below 1, never x = W, y = H or the next pixel's
 //         corner: sums are rounded towards the corner. A round trip returns the same point.
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"

@@ -30,8 +30,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "core/error.hpp"
 #include "core/spec.hpp"
 #include "core/text.hpp"

@@ -5,7 +5,6 @@
 #include <array>
 #include <boost/container/static_vector.hpp>
 #include <deque>
-#include <ranges>
 #include <span>
 #include <tuple>
 #include <vector>
