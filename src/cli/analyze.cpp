@@ -31,6 +31,7 @@ ReportFormat report_format(const AnalyzeRequest& request, const std::string& pat
     static const std::vector<std::string> known = {".json", ".csv", ".txt"};
     io::require_extension(path, known, "--format selects a format for any file name");
     const std::string extension = io::extension_of(path);
+    if (extension.empty() && request.array) return ReportFormat::json;
     if (extension == ".csv") return ReportFormat::csv;
     const bool for_people = extension.empty() && (request.full || request.explain);
     return for_people || is_terminal(path) || extension == ".txt" ? ReportFormat::text
@@ -89,6 +90,8 @@ class AnalyzeCall {
           format_(report_format(request, path_)) {
         if (format_ != ReportFormat::text)
             refuse_options(request, "full,explain", "requires --format text");
+        if (format_ != ReportFormat::json)
+            refuse_options(request, "array", "requires --format json");
         for (const auto& [analyzer, options] : request.analyzers)
             analyses_.push_back(std::make_unique<Analysis>(*analyzer, options, request, session,
                                                            files_, several_analyzers()));
@@ -492,7 +495,7 @@ class AnalyzeCall {
             if (m.standard_error) m.standard_error = picked(*m.standard_error, keys_.at(analysis));
         }
         files_.add(path_, std::stop_token())
-            .write(format_ == ReportFormat::json  ? to_json(all)
+            .write(format_ == ReportFormat::json  ? to_json(all, request_.array)
                    : format_ == ReportFormat::csv ? to_csv(all)
                                                   : to_text(all, text_style()));
     }

@@ -195,7 +195,9 @@ std::vector<std::string> nearest_words(std::string_view word, std::span<const st
     std::ranges::stable_sort(near, {}, &std::pair<std::size_t, std::string>::first);
     std::vector<std::string> words;
     for (auto& [distance, candidate] : near)
-        if (words.size() < most && distance == near[0].first) words.push_back(candidate);
+        if (words.size() < most && distance == near[0].first &&
+            std::ranges::find(words, candidate) == words.end())
+            words.push_back(candidate);
     return words;
 }
 

@@ -14,7 +14,7 @@ const Format& format_for(const std::string& path, std::string_view bytes) {
     const auto either = [](const Format& one, const char* first, const char* second) {
         return one.name == first || one.name == second;
     };
-    const bool told = named == nullptr || either(*named, "csv", "txt") ||
+    const bool told = named == nullptr || either(*named, "csv", "txt") || named->name == "tsv" ||
                       (either(*named, "json", "jsonl") && either(found, "json", "jsonl")) ||
                       (named->name == "bin" && found.name == "utk");
     return told ? found : *named;

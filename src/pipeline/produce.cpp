@@ -89,7 +89,10 @@ class Producer {
         const std::uint64_t count = last - first;
         const RunContext run = run_.rising();
         sets_.prepare(run);
-        if (job_.shard.index == 0) sets_.tell_absent_levels(run);
+        if (job_.shard.index == 0) {
+            sets_.tell_absent_levels(run);
+            tell_found();
+        }
         const auto open = [&, first = first, last = last](std::size_t set, const RunContext& part) {
             OpenSet begun{.next = sets_.stream(set, part, first, last), .count = count};
             if (set + 1 == job_.sets) begun.side_files = sets_.side_files();
@@ -107,6 +110,15 @@ class Producer {
                     .seed = [&](std::size_t set) { return sets_.plan().seed + set; },
                     .starts = true},
                    target_, run);
+    }
+
+    /// Notes the results of a search for a lattice.
+    void tell_found() const {
+        const auto found = sets_.provenance(0, 0).found;
+        if (target_.take || found.size() != 2 || found[0].first != "vector") return;
+        run_.notify(fmt::format("{}: found generating vector {}, figure of merit {} ({})",
+                                generator_.name, found[0].second, found[1].second,
+                                "squared worst-case error"));
     }
 
     /// Makes one set in memory: generates and warps it, and cuts out the shard.

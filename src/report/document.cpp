@@ -269,11 +269,10 @@ std::optional<Report::Curve> list_at(const Report& report, std::string_view key)
     return std::nullopt;
 }
 
-std::string to_json(std::span<const Measurement> measurements) {
-    if (measurements.size() == 1) return json_text(measurement_json(measurements[0]), 2) + "\n";
-    Json array = Json::array();
-    for (const Measurement& m : measurements) array.push_back(measurement_json(m));
-    return json_text(array, 2) + "\n";
+std::string to_json(std::span<const Measurement> measurements, bool array) {
+    Json all = Json::array();
+    for (const Measurement& m : measurements) all.push_back(measurement_json(m));
+    return json_text(all.size() == 1 && !array ? all[0] : all, 2) + "\n";
 }
 
 std::string to_text(std::span<const Measurement> measurements, const TextStyle& style) {

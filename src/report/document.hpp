@@ -49,8 +49,8 @@ Json json_of(const Report& report);
 /// Options as a JSON object; numbers and flags keep their types.
 Json json_of(const std::vector<std::pair<std::string, std::string>>& options);
 
-/// One object for one measurement, an array for several; ends with a newline.
-std::string to_json(std::span<const Measurement> measurements);
+/// An array of objects or, for one measurement and without `array`, one object; ends with a newline.
+std::string to_json(std::span<const Measurement> measurements, bool array = false);
 
 struct TextStyle {
     /// Shows long lists as tables below; lists of equal length in one group are side by side.

@@ -198,7 +198,7 @@ TEST(Convert, RefusesExtensionsOfOtherFormats) {
     for (const char* name : {"q.png", "q.pdf", "q.xlsx", "q.parquet", "q.npz", "q.h5", "q.csv.bz2"})
         for (const char* verb : {"generate halton", "convert p.csv", "warp disk p.csv"})
             expect_refusal(box.shell("stipple " + std::string(verb) + " -o " + name), 2,
-                           "known: .bin .f64 .f32 .csv .tsv");
+                           "known: .bin .f64 .f32 .csv .json");
     expect_refusal(box.run({"analyze", "moments", "p.csv", "-o", "q.html"}), 2,
                    "unknown extension '.html'; known: .json .csv .txt");
     expect_refusal(box.run({"report", "p.csv", "-o", "q.pdf"}), 2, "known: .html .htm .json");

@@ -22,7 +22,7 @@ TEST(Formats, AreFoundByExtension) {
         return format == nullptr ? std::string() : format->name;
     };
     for (const auto& [path, format] : {std::pair{"a.csv", "csv"},
-                                       {"dir.npy/a.tsv", "csv"},
+                                       {"dir.npy/a.tsv", "tsv"},
                                        {"a.TXT", "txt"},
                                        {"a.dat", "txt"},
                                        {"a.b.json", "json"},

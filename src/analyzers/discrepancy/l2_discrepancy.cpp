@@ -20,10 +20,10 @@
 //     squared = int int K  -  2/n sum_i int K(x_i, y) dy  +  n^-2 sum_i sum_k K(x_i, x_k),
 //     value   = sqrt(squared).
 //
-// With product weights w_j >= 0, K is the product of 1 + w_j k for every kind: squared is the sum,
-// over all sets of axes, of the product of their weights times the square for k on these axes
-// alone. (So star with weights is modified with weights, and periodic is wraparound; weights of 1
-// change nothing for those of 1 + k. Without weights symmetric is 2^d times average.)
+// With product weights w_j >= 0, given or j^-decay, K is the product of 1 + w_j k for every kind:
+// squared is the sum, over all sets of axes, of the product of their weights times the square for k
+// on these axes alone. (So star with weights is modified with weights, and periodic is wraparound;
+// weights of 1 change nothing for those of 1 + k. Without weights symmetric is 2^d times average.)
 //
 // Shape   points n x d in [0, 1];  results >= 0, pure numbers, smaller is more even.
 // Cost    d <= 2: O(n log n) for all kinds together (about 0.4 s at n = 10^6 on one core).
@@ -51,6 +51,7 @@
 #include "analyzers/analyzer.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "math/decaying_weights.hpp"
 #include "math/l2/kinds.hpp"
 #include "math/l2/squares.hpp"
 
@@ -70,10 +71,20 @@ constexpr Param<Numbers> axis_weights{
              "Without this option star, extreme, periodic and average have K = prod k, which "
              "differs from weights 1"}};
 
+constexpr Param<std::int64_t> weight_decay{
+    .name = "decay",
+    .low = 0,
+    .high = 20,
+    .optional = true,
+    .help = "Instead of --weights: coordinate j has the weight j^-decay"};
+
 /// Limit beyond any machine's memory; indices of points fit 32 bits.
 constexpr std::size_t max_count = std::size_t{1} << 29;
 
 std::vector<double> checked_weights(const Values& options, std::size_t dimension) {
+    if (options.given(weight_decay) && options.given(axis_weights))
+        fail(ErrorKind::usage, "--weights contradicts --decay; give one of them");
+    if (options.given(weight_decay)) return decaying_weights(options[weight_decay], dimension);
     if (!options.given(axis_weights)) return {};
     const std::vector<double> weights = options[axis_weights];
     if (weights.size() != dimension)
@@ -196,7 +207,7 @@ Analyzer unit() {
             .related = {"discrepancy", "cd2", "wd2", "md2", "l2", "l2-star", "l2-centered",
                         "warnock", "diaphony", "centered"},
             .traits = {.max_dimension = 10'000},
-            .options = Schema(kind, axis_weights),
+            .options = Schema(kind, axis_weights, weight_decay),
             .results = {lower({"KIND.value", "the discrepancy of that kind"}),
                         {"KIND.squared", "its square"},
                         {"KIND.method", "exact-sums, divide-and-conquer or all-pairs", true,

@@ -165,6 +165,7 @@ using enum Verb;
 constexpr Verb writers = generate | warp | convert;
 constexpr Verb readers = warp | analyze | convert | plot | report;
 constexpr Verb workers = writers | analyze | plot | study | report | reproduce;
+constexpr Verb all_verbs = workers | list | help | completions;
 
 constexpr double most_points = 0x1p53;
 constexpr double most_dimensions = 1'000'000;
@@ -281,6 +282,8 @@ const std::vector<Row> rows = {
      report, &ReportRequest::checks},
     {"--fail-on", "KEY>VALUE", "", "older form of --check, with the opposite condition", report,
      &ReportRequest::fail_on},
+    {"--array", "", "", "json that is always an array, also for a single report", analyze,
+     &AnalyzeRequest::array},
     {"--average", "", "",
      "the mean over all sets, with standard errors where they apply; sets of different generators, "
      "options, counts or warps have a mean each",
@@ -431,7 +434,8 @@ const std::vector<Row> rows = {
     {"--max-memory", "SIZE", "80 % of the machine's",
      "memory limit, such as 500M or 2G; jobs that need more are refused at the start", workers,
      &Request::max_memory},
-    {"--quiet", "", "", "no warnings and no progress", workers, &Request::quiet},
+    {"-q,--quiet", "", "", "no notes and no progress on stderr, only errors", all_verbs,
+     &Request::quiet},
     {"--progress", "auto|always|never", "auto", "a bar on stderr, after 0.5 s on a terminal",
      workers, &Request::progress}};
 

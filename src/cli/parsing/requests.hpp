@@ -121,6 +121,7 @@ struct AnalyzeRequest : Sources {
     bool explain = false;
     std::vector<std::string> keys = {};
     bool seconds = true;
+    bool array = false;
 
     [[nodiscard]] bool averaged() const { return average || pool; }
 

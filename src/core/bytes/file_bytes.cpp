@@ -18,8 +18,10 @@
 namespace stipple {
 namespace {
 
+constexpr std::uint64_t largest_limit = std::uint64_t{1} << 30;
+
 std::atomic<std::uint64_t>& most_bytes() {
-    static std::atomic<std::uint64_t> most = std::uint64_t{1} << 30;
+    static std::atomic<std::uint64_t> most = largest_limit;
     return most;
 }
 
@@ -95,7 +97,10 @@ std::string read_file(const std::string& path) {
         const std::size_t before = bytes.size();
         if (before > most_bytes())
             fail_with_hint(
-                ErrorKind::limit, "set --max-memory to at least three times the file's size",
+                ErrorKind::limit,
+                most_bytes() < largest_limit
+                    ? "set --max-memory to at least three times the file's size, up to 3G"
+                    : "",
                 "{}: the file is larger than {}, the limit for files that are read at once", path,
                 format_bytes(static_cast<double>(most_bytes())));
         if (before + step > bytes.capacity()) bytes.reserve(before + before / 2 + step);
@@ -107,9 +112,7 @@ std::string read_file(const std::string& path) {
     return bytes;
 }
 
-void limit_whole_files(std::uint64_t bytes) {
-    most_bytes() = std::min(bytes, std::uint64_t{1} << 30);
-}
+void limit_whole_files(std::uint64_t bytes) { most_bytes() = std::min(bytes, largest_limit); }
 
 namespace {
 

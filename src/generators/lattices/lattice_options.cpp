@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "generators/net_sequence.hpp"
+#include "math/decaying_weights.hpp"
 #include "math/digital/gf2.hpp"
 #include "media/token_file.hpp"
 
@@ -138,13 +139,9 @@ std::vector<std::uint64_t> given_components(const Values& options, const VectorF
 }
 
 std::vector<double> weights_of(const Values& options, std::size_t dimension) {
-    std::vector<double> found = options[product_weights];
-    // Divisions round the same way everywhere; pow() need not.
-    for (std::size_t j = 1; !options.given(product_weights) && j <= dimension; ++j) {
-        found.push_back(1);
-        for (std::int64_t e = 0; e < options[weight_decay]; ++e)
-            found.back() /= static_cast<double>(j);
-    }
+    std::vector<double> found = options.given(product_weights)
+                                    ? options[product_weights]
+                                    : decaying_weights(options[weight_decay], dimension);
     if (found.size() < dimension)
         fail(ErrorKind::usage, "--weights: {} numbers for {} coordinates; give one for each",
              found.size(), dimension);

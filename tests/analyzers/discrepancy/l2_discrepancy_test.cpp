@@ -358,6 +358,25 @@ TEST(L2Discrepancy, WeighsProjectionsByTheProductOfTheirWeights) {
     }
 }
 
+// The weights are doubles: 1/3 and 1/9 are rounded, and the exact square is that of these doubles.
+TEST(L2Discrepancy, DecayGivesCoordinateJTheWeightJToTheMinusDecay) {
+    const std::vector<Weights> by_decay = {
+        {1, 1, 1, 1}, {1, 1. / 2, 1. / 3, 1. / 4}, {1, 1. / 4, 1. / 9, 1. / 16}};
+    for (std::size_t decay = 0; decay < by_decay.size(); ++decay)
+        for (const std::size_t d : {1, 2, 3, 4})
+            for (const PointSet& set : small_sets(d)) {
+                if (set.count() > 7) continue;
+                const Weights mine(by_decay[decay].begin(),
+                                   by_decay[decay].begin() + static_cast<std::ptrdiff_t>(d));
+                const Report report = analyze("l2-discrepancy", set,
+                                              {{"decay", std::to_string(decay)}, {"kind", "all"}});
+                for (const Definition& kind : definitions)
+                    EXPECT_LE(off(squared(report, kind.name), exact_square(set, kind, mine)), 1e-13)
+                        << kind.name << ", decay " << decay << ", n = " << set.count()
+                        << ", d = " << d;
+            }
+}
+
 TEST(L2Discrepancy, WithWeightsOfOneStarIsModifiedAndPeriodicIsWraparound) {
     for (const std::size_t d : {1, 2, 3}) {
         const PointSet set = random_set(50, d, 3);
@@ -833,6 +852,9 @@ TEST(L2Discrepancy, RefusesWrongOptionsAndSaysWhy) {
     EXPECT_EQ(error({{"weights", "1,-0.5,2"}}), "usage: --weights: -0.5 is outside [0, 1e6]");
     EXPECT_EQ(error({{"weights", "1,1e7,2"}}), "usage: --weights: 10000000 is outside [0, 1e6]");
     EXPECT_TRUE(error({{"weights", "1,nan,2"}}).starts_with("usage: --weights: "));
+    EXPECT_EQ(error({{"weights", "1,1,1"}, {"decay", "2"}}),
+              "usage: --weights contradicts --decay; give one of them");
+    EXPECT_EQ(error({{"decay", "21"}}), "usage: --decay: 21 is outside [0, 20]");
     RunContext small;
     small.max_memory = 100;
     for (const std::size_t d : {2, 3})
