@@ -21,6 +21,7 @@
 #include "io/output.hpp"
 #include "pipeline/generated.hpp"
 #include "pipeline/shared_analysis.hpp"
+#include "report/latex.hpp"
 #include "report/typical.hpp"
 
 namespace stipple::cli {
@@ -28,11 +29,12 @@ namespace {
 
 ReportFormat report_format(const AnalyzeRequest& request, const std::string& path) {
     if (request.format) return *request.format;
-    static const std::vector<std::string> known = {".json", ".csv", ".txt"};
+    static const std::vector<std::string> known = {".json", ".csv", ".txt", ".tex"};
     io::require_extension(path, known, "--format selects a format for any file name");
     const std::string extension = io::extension_of(path);
     if (extension.empty() && request.array) return ReportFormat::json;
     if (extension == ".csv") return ReportFormat::csv;
+    if (extension == ".tex") return ReportFormat::latex;
     const bool for_people = extension.empty() && (request.full || request.explain);
     return for_people || is_terminal(path) || extension == ".txt" ? ReportFormat::text
                                                                   : ReportFormat::json;
@@ -495,9 +497,10 @@ class AnalyzeCall {
             if (m.standard_error) m.standard_error = picked(*m.standard_error, keys_.at(analysis));
         }
         files_.add(path_, std::stop_token())
-            .write(format_ == ReportFormat::json  ? to_json(all, request_.array)
-                   : format_ == ReportFormat::csv ? to_csv(all)
-                                                  : to_text(all, text_style()));
+            .write(format_ == ReportFormat::json    ? to_json(all, request_.array)
+                   : format_ == ReportFormat::latex ? to_latex(all)
+                   : format_ == ReportFormat::csv   ? to_csv(all)
+                                                    : to_text(all, text_style()));
     }
 
     const AnalyzeRequest& request_;

@@ -372,7 +372,7 @@ std::uint64_t seed_of(const Request& request, std::uint64_t largest, Session& se
 std::uint64_t seed_for_generators(const Sources& from, Session& session) {
     std::uint64_t largest = ~std::uint64_t{0};
     for (const std::string& text : from.generate) {
-        const Spec spec = parse_spec(text);
+        const Spec spec = parse_generator(text).unit;
         const Generator& generator = find_generator(spec.name);
         largest = std::min(largest, largest_seed(generator, spec.values(generator.options)));
     }
@@ -395,9 +395,12 @@ SetsToMake sets_asked(const Generator& generator, Values options, const Sources&
 
 GeneratedSets generated_sets(const std::string& spec, std::uint64_t seed, const Sources& from,
                              const RunContext& run) {
-    const Spec named = parse_spec(spec);
-    const Generator& generator = find_generator(named.name);
-    SetsToMake asked = sets_asked(generator, named.values(generator.options), from);
+    const GeneratorSpec named = parse_generator(spec);
+    const Generator& generator = find_generator(named.unit.name);
+    SetsToMake asked = sets_asked(generator, named.unit.values(generator.options), from);
+    for (std::size_t i = 0; i < named.warps.size(); ++i)
+        asked.warps.insert(asked.warps.begin() + static_cast<std::ptrdiff_t>(i),
+                           parse_spec(named.warps[i]));
     asked.request.seed = seed;
     return {std::move(asked), run};
 }

@@ -141,16 +141,27 @@ std::string command_text(const Arguments& arguments,
     return text;
 }
 
+std::string typed_generator(const std::string& text) {
+    const GeneratorSpec asked = parse_generator(text);
+    if (text.find(' ') == std::string::npos) return shell_word(text);
+    std::string words = asked.unit.name;
+    for (const auto& [name, value] : asked.unit.settings)
+        words += typed_option(name, value, value == "true");
+    for (const std::string& warp : asked.warps) words += typed_option("warp", warp, false);
+    return words;
+}
+
 namespace {
 
-/// Whether a command or a spec sets the option.
-bool sets_option(std::string_view command, std::string_view name) {
-    const auto is_at = [command](std::size_t at, std::string_view letters) {
-        return at >= command.size() || letters.find(command[at]) != std::string_view::npos;
-    };
-    for (auto at = command.find(name); at != command.npos; at = command.find(name, at + 1))
-        if (at > 0 && is_at(at - 1, "-:,") && is_at(at + name.size(), " =,")) return true;
-    return false;
+/// Options of the generator in a command or a spec; empty if the text is neither.
+std::vector<std::pair<std::string, std::string>> settings_in(std::string_view typed) {
+    constexpr std::string_view verb = "stipple generate ";
+    if (typed.starts_with(verb)) typed.remove_prefix(verb.size());
+    try {
+        return parse_generator(typed).unit.settings;
+    } catch (const Error&) {
+        return {};
+    }
 }
 
 }  // namespace
@@ -171,13 +182,16 @@ bool seed_matters(const Generator& generator, const Provenance& from) {
 std::vector<std::string> changed_options(const Provenance& from, const Generator& generator,
                                          std::string_view typed) {
     std::vector<std::string> changed;
+    const auto given = settings_in(typed);
     const auto defaults = typed_settings(generator.options.defaults(), generator.options);
+    const auto first = [](const auto& setting) { return setting.first; };
     for (const auto& setting : from.options) {
         constexpr std::size_t readable = 40;
         const auto& [name, value] = setting;
         const bool is_default = std::ranges::find(defaults, setting) != defaults.end();
         const auto number = parse_number(value);
-        if (!is_default && value.size() <= readable && (typed.empty() || sets_option(typed, name)))
+        if (!is_default && value.size() <= readable &&
+            (typed.empty() || std::ranges::find(given, name, first) != given.end()))
             changed.push_back(
                 fmt::format("{}={}", name, number ? plot::rounded(*number, 5) : value));
     }

@@ -181,7 +181,8 @@ class Reporter {
         next.points = sets->made(0, session_.run());
         if (sets->sets() > 1) next.others = sets;
         next.set.source = text;
-        next.set.command = fmt::format("stipple generate {}{}", shell_word(text), of_generated());
+        next.set.command =
+            fmt::format("stipple generate {}{}", typed_generator(text), of_generated());
         next.set.provenance = next.points.provenance;
         next.set.provenance.command = next.set.command;
         next.input.words = fmt::format("--generate {}{}", shell_word(text), of_generated());

@@ -59,6 +59,7 @@ struct Original {
 
 /// Whether a file begins like a table of a study, its summary or its comparison.
 bool is_study(std::string_view front) {
+    front = without_preface(front);
     const auto line = front.substr(0, front.find('\n'));
     for (const TableStyle style : {TableStyle::csv, TableStyle::jsonl})
         if (StudyTable(style, true).is_head(line)) return true;
@@ -92,8 +93,9 @@ void refuse_without_points(const std::string& name, std::string_view front) {
         {is("stipple.study-journal"), "the journal of an unfinished study, without points",
          "the same 'stipple study' with --resume continues it"},
         {is_study(front), "a table of a study, without points",
-         "'stipple generate' with a row's generator, its options, count, dimension, warps and "
-         "seed makes the points of that row again"},
+         "the command in its '# command' line (study --meta) makes it again, and 'stipple "
+         "generate' "
+         "with a row's generator, its options, count, dimension, warps and seed its points"},
         {is("stipple.meta"), "it records how the points in another file were made",
          "reproduce takes the file of points"},
         {has("<!DOCTYPE html") || has("<html"), "an HTML page, which holds no points", ""}};

@@ -22,6 +22,7 @@
 #include "study/study_file.hpp"
 #include "study/study_run.hpp"
 #include "study/study_summary.hpp"
+#include "study/wide_table.hpp"
 #include "study/work_queue.hpp"
 
 namespace stipple::cli {
@@ -36,8 +37,11 @@ StudyRequest with_config(const StudyRequest& typed, const RunContext& run) {
         fail(ErrorKind::usage, "--config: the ranks have no standard input; name a file");
     Arguments all = typed;
     std::erase_if(all.common, [](const auto& option) { return option.first == "config"; });
+    const auto is_typed = [&](const std::string& name) {
+        return typed.has(name) || (name == "generators" && !typed.inputs.empty());
+    };
     for (auto& setting : parse_study_config(io::read_bytes(path, run), io::source_name(path)))
-        if (!typed.has(setting.first)) all.common.push_back(std::move(setting));
+        if (!is_typed(setting.first)) all.common.push_back(std::move(setting));
     auto request = request_as<StudyRequest>(all);
     request.parameters = typed.parameters;
     if (!request.parameters) read_parameter_file(request, run);
@@ -58,6 +62,8 @@ StudyRequest with_config(const StudyRequest& typed, const RunContext& run) {
 
 SweepRequest sweep_of(const StudyRequest& asked, const Ranks& ranks, Session& session) {
     SweepRequest sweep = asked;
+    for (const std::string& text : asked.inputs)
+        std::ranges::move(split_specs(text, "study"), std::back_inserter(sweep.generators));
     for (const auto& [specs, name] :
          {std::pair{&sweep.generators, "generators"}, {&sweep.measures, "analyze"}})
         if (specs->empty())
@@ -89,13 +95,50 @@ std::string extension_of(const std::string& path) {
     return std::filesystem::path(path).extension().string();
 }
 
-TableStyle table_style(const StudyRequest& request, const std::string& path) {
+StudyFormat study_format(const StudyRequest& request, const std::string& path) {
+    if (request.format) return *request.format;
     const std::string extension = extension_of(path);
-    const bool lines = extension == ".jsonl" || extension == ".ndjson";
-    if (!request.format && !lines && !extension.empty() && extension != ".csv")
+    if (extension == ".jsonl" || extension == ".ndjson") return StudyFormat::jsonl;
+    if (extension == ".tex" && request.wide) return StudyFormat::latex;
+    if (!extension.empty() && extension != ".csv")
         fail_with_hint(ErrorKind::usage, "--format csv or jsonl selects a format for any file name",
-                       "--output: a study's table is .csv or .jsonl; '{}' is neither", path);
-    return request.format.value_or(lines ? TableStyle::jsonl : TableStyle::csv);
+                       "--output: a study's table is .csv or .jsonl or, with --wide, .tex; '{}' is "
+                       "none of these",
+                       path);
+    return StudyFormat::csv;
+}
+
+TableStyle style_of(StudyFormat format) {
+    return format == StudyFormat::jsonl ? TableStyle::jsonl : TableStyle::csv;
+}
+
+/// Command that makes the table, without options that do not affect it.
+std::string command_of(const StudyRequest& request) {
+    return "stipple study" + command_text(request, {"resume", "overwrite", "yes"});
+}
+
+/// The means as a wide table, in the format of the request.
+std::string wide_text(std::span<const MeanRow> means, const StudyRequest& request) {
+    const StudyFormat format = study_format(request, output_of(request));
+    if (format == StudyFormat::latex) return wide_latex(means, command_of(request));
+    const TableStyle style = style_of(format);
+    const std::string above = request.meta ? study_preface(style, command_of(request)) : "";
+    return above + wide_table(means, style);
+}
+
+/// The table of a study, if the only input is such a file.
+std::optional<std::vector<MeanRow>> means_of_input(const StudyRequest& request,
+                                                   const RunContext& run) {
+    std::error_code none;
+    if (request.inputs.size() != 1 || !request.wide || request.has("generators") ||
+        !std::filesystem::exists(request.inputs[0], none))
+        return std::nullopt;
+    const std::string& path = request.inputs[0];
+    refuse_options(request, "analyze,config,confidence,count,dimension,seed,seeds,warp",
+                   "does not apply to the table of a study");
+    auto means = read_means(io::read_bytes(path, run), io::source_name(path), run);
+    if (!means) fail(ErrorKind::input, "{}: is not the table of a study", path);
+    return means;
 }
 
 /// Path beside the table: study.csv -> study.summary.csv.
@@ -120,7 +163,7 @@ class Study {
           ranks_(ranks),
           sweep_(sweep_of(request, ranks, session)),
           path_(output_of(request)),
-          table_(table_style(request, path_), sweep_.request().seconds),
+          table_(table_of(request)),
           summary_options_(summary_options(request, sweep_.request().first_seed)) {}
 
     int go() {
@@ -138,16 +181,24 @@ class Study {
     }
 
   private:
+    [[nodiscard]] StudyTable table_of(const StudyRequest& request) const {
+        const TableStyle style = style_of(study_format(request, path_));
+        return {style, sweep_.request().seconds,
+                request.meta ? study_preface(style, command_of(request)) : ""};
+    }
+
     int lead() {
         const RunContext& run = session_.run();
         const StudyFile::Start start = request_.resume      ? StudyFile::Start::resume
                                        : request_.overwrite ? StudyFile::Start::anew
                                                             : StudyFile::Start::fresh;
         StudyFile::Listener listen;
-        if (request_.summary) listen = [this](const StudyRow& row) { summary_.add(row); };
+        if (request_.summary || request_.wide)
+            listen = [this](const StudyRow& row) { summary_.add(row); };
         const UnitRunner runner(sweep_, run);
         runner.require_options(run);
-        StudyFile file(path_, sweep_, table_, start, listen, run);
+        // A wide table needs no rows in a file.
+        StudyFile file(request_.wide ? "/dev/null" : path_, sweep_, table_, start, listen, run);
         if (start == StudyFile::Start::anew && !file.is_stream()) remove_old_summary();
         for (const auto& sentence : runner.before_warps()) session_.warn(sentence);
         try {
@@ -174,6 +225,11 @@ class Study {
 
     void finish(StudyFile& file) const {
         const RunContext& run = session_.run();
+        if (request_.wide) {
+            SummaryOptions options = summary_options_;
+            options.resamples = 0;
+            return write_text(path_, wide_text(summary_.mean_rows(options, run), request_));
+        }
         if (!request_.summary) return file.finish("", run);
         file.listen(run);
         const auto means = summary_.means(table_.style(), summary_options_, run);
@@ -184,8 +240,8 @@ class Study {
             return;
         }
         file.finish("", run);
-        write_text(beside(path_, "summary"), means);
-        write_text(beside(path_, "comparisons"), pairs);
+        write_text(beside(path_, "summary"), table_.preface() + means);
+        write_text(beside(path_, "comparisons"), table_.preface() + pairs);
     }
 
     /// Removes the previous summary, which could be mistaken for one of the new study.
@@ -193,8 +249,8 @@ class Study {
         for (const auto& path : {beside(path_, "summary"), beside(path_, "comparisons")}) {
             std::ifstream in(path, std::ios::binary);
             std::string first;
-            if (std::getline(in, first) &&
-                (first.starts_with("table,") || first.starts_with("{\"table\":")))
+            while (std::getline(in, first) && is_study_preface(first)) first.clear();
+            if (first.starts_with("table,") || first.starts_with("{\"table\":"))
                 std::filesystem::remove(path);
         }
     }
@@ -237,8 +293,10 @@ class Study {
 }  // namespace
 
 int StudyRequest::perform(Session& session) const {
-    if (!inputs.empty())
-        fail(ErrorKind::usage, "study takes no input; '{}' is not understood", inputs.front());
+    if (const auto means = means_of_input(*this, session.run())) {
+        write_text(output_of(*this), wide_text(*means, *this));
+        return 0;
+    }
     Ranks& ranks = launched("study", session.run());
     std::optional<StudyRequest> completed;
     std::optional<Study> study;

@@ -57,6 +57,9 @@ std::string typed_options(const Arguments& arguments,
 /// " --name value", quoted for a shell.
 std::string typed_option(const std::string& name, const std::string& value, bool flag);
 
+/// A generator of --generate as words of 'stipple generate', quoted for a shell.
+std::string typed_generator(const std::string& text);
+
 /// Whether the points depend on the seed.
 bool seed_matters(const Generator& generator, const Provenance& from);
 

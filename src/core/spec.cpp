@@ -87,6 +87,11 @@ class SpecParser {
     std::size_t at_ = 0;
 };
 
+/// Whether the text after a comma is a number, which is no unit's name: halton -w disk@1,2.
+bool is_numeric(std::string_view rest) {
+    return !rest.empty() && std::string_view("0123456789.+-").find(rest[0]) != rest.npos;
+}
+
 /// Whether the text after a comma is an option of the preceding spec: OPT=...
 bool goes_on(std::string_view rest) {
     const auto end = rest.find_first_of("=,;:@[]");
@@ -160,7 +165,9 @@ std::vector<std::string> split_specs(std::string_view text, std::string_view who
         if (text[i] == ']') open.pop_back();
         if (!open.empty() || (text[i] != ',' && text[i] != ';')) continue;
         const bool with_options = text.substr(begin, i - begin).find(':') != std::string::npos;
-        if (text[i] == ';' || !with_options || !goes_on(text.substr(i + 1))) cut(i);
+        const std::string_view rest = text.substr(i + 1);
+        const bool continued = is_numeric(rest) || (with_options && goes_on(rest));
+        if (text[i] == ';' || !continued) cut(i);
     }
     if (!open.empty())
         fail(ErrorKind::usage, "{}, column {}: this '[' has no ']'", who, open.back() + 1);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <set>
 #include <span>
@@ -152,6 +153,58 @@ std::string unlike_prefixes(const Provenance& made) {
 void complete(Provenance& provenance) {
     const Generator* generator = generator_named(provenance.generator);
     provenance.independent = generator != nullptr && generator->traits.independent;
+}
+
+namespace {
+
+/// Position of the next option, "-" after a blank and before a letter or "-", outside brackets.
+std::size_t next_option(std::string_view text, std::size_t from) {
+    int open = 0;
+    for (std::size_t i = from; i + 2 < text.size(); ++i) {
+        open += text[i] == '[' ? 1 : text[i] == ']' ? -1 : 0;
+        const char after = text[i + 2];
+        if (open == 0 && text[i] == ' ' && text[i + 1] == '-' &&
+            (after == '-' || std::isalpha(static_cast<unsigned char>(after)) != 0))
+            return i + 1;
+    }
+    return text.size();
+}
+
+/// Adds an option such as "-w disk" or "--scramble owen". @param whole for messages
+void take_option(std::string_view option, std::string_view whole, GeneratorSpec& found) {
+    const auto end = std::min(option.find_first_of(" ="), option.size());
+    const std::string_view name = option.substr(0, end);
+    std::string_view value = trim(option.substr(std::min(end + 1, option.size())));
+    if (name == "-w" || name == "--warp") {
+        if (value.empty()) fail(ErrorKind::usage, "'{}': {} needs a warp", whole, name);
+        found.warps.emplace_back(value);
+        return;
+    }
+    if (!name.starts_with("--") || name.size() == 2)
+        fail_with_hint(ErrorKind::usage, "only -w WARP and the generator's --OPTIONs may follow it",
+                       "'{}': {} is not understood", whole, name);
+    if (value.starts_with('[') && value.ends_with(']')) value = value.substr(1, value.size() - 2);
+    found.unit.settings.emplace_back(name.substr(2), value.empty() ? "true" : value);
+}
+
+}  // namespace
+
+GeneratorSpec parse_generator(std::string_view text) {
+    const std::string_view whole = trim(text);
+    std::size_t at = next_option(whole, 0);
+    GeneratorSpec found{.unit = parse_spec(trim(whole.substr(0, at)))};
+    while (at < whole.size()) {
+        const std::size_t end = next_option(whole, at);
+        take_option(trim(whole.substr(at, end - at)), whole, found);
+        at = end;
+    }
+    return found;
+}
+
+std::string format_own_warps(const std::vector<std::string>& warps) {
+    std::string text;
+    for (const std::string& warp : warps) text += " -w " + warp;
+    return text;
 }
 
 }  // namespace stipple

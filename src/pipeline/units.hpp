@@ -45,4 +45,17 @@ std::string unlike_prefixes(const Provenance& made);
 /// points are independent.
 void complete(Provenance& provenance);
 
+/// A generator with its options and its own warps, as one text:
+///     SPEC [-w WARP] [--OPTION VALUE] [--FLAG] ...        rank1-lattice -w cranley-patterson
+struct GeneratorSpec {
+    Spec unit;
+    std::vector<std::string> warps = {};  ///< specs, in order
+};
+
+/// @throws Error(usage) naming the text
+GeneratorSpec parse_generator(std::string_view text);
+
+/// " -w WARP" for each warp, as parse_generator() reads it.
+std::string format_own_warps(const std::vector<std::string>& warps);
+
 }  // namespace stipple

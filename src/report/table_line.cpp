@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "report/table_line.hpp"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "core/json.hpp"
@@ -14,6 +16,11 @@ std::string json_value(const TableCell& cell) {
     if (cell.number && (text.empty() || text == "nan")) return "null";
     if (cell.number && text != "inf" && text != "-inf") return text;
     return json_text(Json(text));
+}
+
+std::string json_name(std::string_view name) {
+    if (name.find_first_of("\\\"") != name.npos) return json_text(Json(name));
+    return fmt::format("\"{}\"", name);
 }
 
 /// Fields of a line of CSV; nullopt if a quote is not closed.
@@ -80,7 +87,7 @@ std::string table_line(TableStyle style, std::span<const TableCell> cells) {
         if (csv)
             text += csv_field(cell.text);
         else
-            text.append("\"").append(cell.name).append("\":").append(json_value(cell));
+            text.append(json_name(cell.name)).append(":").append(json_value(cell));
     }
     return text + (csv ? "\n" : "}\n");
 }

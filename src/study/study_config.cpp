@@ -39,8 +39,14 @@ constexpr std::array config_keys = {
 constexpr std::array remarks = {"$schema", "comment"};
 
 /// Checks the options of a spec. @throws Error
-void check_unit(std::string_view key, const Spec& spec) {
-    if (key == "generators") (void)spec.values(find_generator(spec.name).options);
+void check_unit(std::string_view key, std::string_view text) {
+    if (key == "generators") {
+        const GeneratorSpec asked = parse_generator(text);
+        (void)asked.unit.values(find_generator(asked.unit.name).options);
+        for (const std::string& warp : asked.warps) check_unit("warp", warp);
+        return;
+    }
+    const Spec spec = parse_spec(text);
     if (key == "analyze") (void)spec.values(find_analyzer(spec.name).options);
     if (key != "warp") return;
     const Scramble* scramble = scramble_named(spec.name);
@@ -115,7 +121,7 @@ class ConfigReader {
                               shown(json_text(value)));
         const std::string text =
             value.is_string() ? value.get<std::string>() : spec_of(key, value, where);
-        checked(where, [&] { check_unit(key, parse_spec(text)); });
+        checked(where, [&] { check_unit(key, text); });
         settings_.emplace_back(key, text);
     }
 
@@ -137,8 +143,7 @@ class ConfigReader {
         for (const auto& [option, value] : options.items()) {
             const std::string place = path(path(where, "options"), option);
             const std::string setting = fmt::format("{}=[{}]", option, option_text(value, place));
-            checked(place,
-                    [&] { check_unit(key, parse_spec(fmt::format("{}:{}", name, setting))); });
+            checked(place, [&] { check_unit(key, fmt::format("{}:{}", name, setting)); });
             text += separator;
             text += setting;
             separator = ',';

@@ -139,8 +139,9 @@ class StudyFile::TableReader {
     std::uint64_t read(const RunContext& run) {
         Lines lines(file_.path_);
         std::string text;
-        if (file_.table_.style() == TableStyle::csv) take_line(lines, text);
-        end_ = begin_ = file_.table_.head().size();
+        end_ = begin_ = file_.head_size_;
+        line_ = file_.head_lines_;
+        lines.seek(begin_);
         std::uint64_t damaged = 0;  // number of the first damaged line; 0: none
         while (take_line(lines, text)) {
             run.check_stop();
@@ -269,10 +270,13 @@ void StudyFile::open_file(Start start, const RunContext& run) {
     std::string first;
     const bool empty = lines.is_empty();
     // A crash may have left a part of the first line.
-    const bool whole = lines.take(first);
+    bool whole = lines.take(first);
+    for (; whole && is_study_preface(first); whole = lines.take(first), ++head_lines_)
+        head_size_ += first.size() + 1;
     const bool ours = whole ? table_.is_head(first)
-                            : start != Start::fresh && (table_.head().starts_with(first) ||
-                                                        first.starts_with("{\"generator\":"));
+                            : head_lines_ > 0 ||
+                                  (start != Start::fresh && (table_.head().starts_with(first) ||
+                                                             first.starts_with("{\"generator\":")));
     if (!empty && !ours)
         fail_with_hint(ErrorKind::input, "name another file with -o",
                        "{}: exists and is not the table of a study", path_);
@@ -288,18 +292,26 @@ void StudyFile::open_file(Start start, const RunContext& run) {
     if (start != Start::resume || !whole) {
         lock_journal();
         begin_journal();
-        cut_to(output_, 0, path_);
-        write_all(output_, table_.head(), path_);
-        size_ = table_.head().size();
+        begin_table();
         return;
     }
-    if (table_.style() == TableStyle::csv && first + "\n" != table_.head()) refuse_other();
+    if (table_.style() == TableStyle::csv) {
+        if (first + "\n" != table_.names()) refuse_other();
+        head_size_ += table_.names().size();
+        ++head_lines_;
+    }
     if (unfinished) lock_journal();
     const bool known = unfinished && journal_is_ours();
     size_ = TableReader(*this, unfinished, run).read(run);
     if (!unfinished && (mixed_ || written_ < sweep_.units())) lock_journal();
     if (journal_ >= 0 && !known) begin_journal();
     cut_to(output_, size_, path_);
+}
+
+void StudyFile::begin_table() {
+    cut_to(output_, 0, path_);
+    write_all(output_, table_.head(), path_);
+    size_ = head_size_ = table_.head().size();
 }
 
 void StudyFile::lock_journal() {
@@ -532,8 +544,8 @@ void StudyFile::finish(const std::string& more, const RunContext& run) {
     }
     // The system does not retry a write that an earlier sync reported as failed.
     if (lost_ != 0) refuse_file(path_, lost_);
-    const bool in_order = !mixed_ && index_.size() == 1 &&
-                          table_.head().size() + index_.begin()->second.bytes == size_;
+    const bool in_order =
+        !mixed_ && index_.size() == 1 && head_size_ + index_.begin()->second.bytes == size_;
     if (!in_order) rewrite(run);
     if (in_order && !is_synchronised(::fsync(output_))) refuse(path_);
     if (in_order && journal_ >= 0 && ::unlink(journal_of(path_).c_str()) != 0)

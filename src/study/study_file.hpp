@@ -99,6 +99,7 @@ class StudyFile {
     class TableReader;
 
     void open_file(Start start, const RunContext& run);
+    void begin_table();
     void lock_journal();
     [[nodiscard]] bool journal_is_ours() const;
     void begin_journal();
@@ -123,6 +124,8 @@ class StudyFile {
     std::mutex mutex_;                          // guards the members down to failures_
     std::map<std::uint64_t, Stored> index_;     ///< stored units, by the first unit of each run
     std::map<std::uint64_t, Segment> waiting_;  ///< early segments of a stream, by first unit
+    std::uint64_t head_size_ = 0;               ///< bytes above the rows
+    std::size_t head_lines_ = 0;                ///< lines above the rows
     std::uint64_t size_ = 0;                    ///< bytes of the table
     std::uint64_t written_ = 0;                 ///< number of units in the file
     bool mixed_ = false;         ///< some rows have the fingerprint of a smaller study

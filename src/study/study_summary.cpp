@@ -226,10 +226,12 @@ std::string StudySummary::comparisons(TableStyle style, const SummaryOptions& op
 namespace {
 
 /// Means over the rows of a study's table; a summary after them is ignored.
-std::vector<MeanRow> means_of_rows(std::span<const std::string_view> lines, const StudyTable& table,
-                                   const std::string& source, const RunContext& run) {
+/// @param begin index of the first row
+std::vector<MeanRow> means_of_rows(std::span<const std::string_view> lines, std::size_t begin,
+                                   const StudyTable& table, const std::string& source,
+                                   const RunContext& run) {
     StudySummary summary;
-    for (std::size_t i = table.head().empty() ? 0 : 1; i < lines.size(); ++i) {
+    for (std::size_t i = begin; i < lines.size(); ++i) {
         run.check_stop();
         if (lines[i].empty() || lines[i].starts_with("{\"table\":")) break;
         const auto row = table.parse(lines[i]);
@@ -239,11 +241,11 @@ std::vector<MeanRow> means_of_rows(std::span<const std::string_view> lines, cons
     return summary.mean_rows({.resamples = 0}, run);
 }
 
-std::vector<MeanRow> means_in_summary(std::span<const std::string_view> lines, TableStyle style,
-                                      const std::string& source) {
+std::vector<MeanRow> means_in_summary(std::span<const std::string_view> lines, std::size_t begin,
+                                      TableStyle style, const std::string& source) {
     const auto columns = cells_of(MeanRow());
     std::vector<MeanRow> rows;
-    for (std::size_t i = style == TableStyle::csv ? 1 : 0; i < lines.size(); ++i) {
+    for (std::size_t i = begin; i < lines.size(); ++i) {
         const auto cells = parse_table_line(style, lines[i], columns);
         MeanRow& row = rows.emplace_back();
         const bool whole = cells && columns::read_cells(*cells, [&](const auto& visit) {
@@ -259,7 +261,8 @@ std::vector<MeanRow> means_in_summary(std::span<const std::string_view> lines, T
 
 std::optional<std::vector<MeanRow>> read_means(std::string_view bytes, const std::string& source,
                                                const RunContext& run) {
-    const std::string_view first = bytes.substr(0, bytes.find('\n'));
+    const std::string_view table = without_preface(bytes);
+    const std::string_view first = table.substr(0, table.find('\n'));
     const bool csv = !first.starts_with('{');
     const TableStyle style = csv ? TableStyle::csv : TableStyle::jsonl;
     const bool summary = csv ? std::string(first) + "\n" == table_head(style, cells_of(MeanRow()))
@@ -269,9 +272,12 @@ std::optional<std::vector<MeanRow>> read_means(std::string_view bytes, const std
                        "{}: comparisons of a study are not drawn", source);
     if (!summary && !StudyTable(style, true).is_head(first)) return std::nullopt;
     const auto lines = split(bytes.substr(0, bytes.find_last_not_of('\n') + 1), '\n');
-    if (summary) return means_in_summary(lines, style, source);
+    const auto above = static_cast<std::size_t>(
+        std::count(bytes.begin(), bytes.end() - static_cast<std::ptrdiff_t>(table.size()), '\n'));
+    const std::size_t begin = above + (csv ? 1 : 0);
+    if (summary) return means_in_summary(lines, begin, style, source);
     const bool seconds = first.find("generate_seconds") != first.npos;
-    return means_of_rows(lines, StudyTable(style, seconds), source, run);
+    return means_of_rows(lines, begin, StudyTable(style, seconds), source, run);
 }
 
 }  // namespace stipple

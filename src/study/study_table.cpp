@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
+#include "core/json.hpp"
 #include "study/table_columns.hpp"
 
 namespace stipple {
@@ -105,10 +107,37 @@ std::optional<std::uint64_t> unit_of(const Sweep& sweep, const StudyRow& row) {
     return known ? index : std::nullopt;
 }
 
-StudyTable::StudyTable(TableStyle style, bool seconds)
-    : style_(style), seconds_(seconds), columns_(cells_of({}, seconds)) {}
+std::string study_preface(TableStyle style, const std::string& command) {
+    const std::string text = json_text(Json(command));
+    return style == TableStyle::csv
+               ? fmt::format("# tool: \"stipple\"\n# version: \"{}\"\n# command: {}\n",
+                             STIPPLE_VERSION, text)
+               : fmt::format(
+                     "{{\"format\":\"stipple.study\",\"version\":1,\"meta\":{{\"tool\":"
+                     "\"stipple\",\"version\":\"{}\",\"command\":{}}}}}\n",
+                     STIPPLE_VERSION, text);
+}
 
-std::string StudyTable::head() const { return table_head(style_, columns_); }
+bool is_study_preface(std::string_view line) {
+    for (const char* begin :
+         {"# tool: \"stipple\"", "# version: ", "# command: ", "{\"format\":\"stipple.study\","})
+        if (line.starts_with(begin)) return true;
+    return false;
+}
+
+std::string_view without_preface(std::string_view text) {
+    while (is_study_preface(text))
+        text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+    return text;
+}
+
+StudyTable::StudyTable(TableStyle style, bool seconds, std::string preface)
+    : style_(style),
+      seconds_(seconds),
+      preface_(std::move(preface)),
+      columns_(cells_of({}, seconds)) {}
+
+std::string StudyTable::names() const { return table_head(style_, columns_); }
 
 std::string StudyTable::line(const StudyRow& row) const {
     return table_line(style_, cells_of(row, seconds_));

@@ -73,15 +73,31 @@ std::optional<std::uint64_t> unit_of(const Sweep& sweep, const StudyRow& row);
 /// Whether a row belongs to the unit whose row_of() is `unit`.
 bool belongs(const StudyRow& row, const StudyRow& unit);
 
+/// The first lines of a table, with the version and the command that made it: `# KEY: VALUE` in CSV,
+/// one object in JSONL.
+std::string study_preface(TableStyle style, const std::string& command);
+
+/// Whether a line is one of study_preface().
+bool is_study_preface(std::string_view line);
+
+/// The text after its study_preface(), if it has one.
+std::string_view without_preface(std::string_view text);
+
 /// Form of the rows in a file.
 class StudyTable {
   public:
-    StudyTable(TableStyle style, bool seconds);
+    /// @param preface text above the column names, from study_preface(); may be empty
+    StudyTable(TableStyle style, bool seconds, std::string preface = {});
 
     [[nodiscard]] TableStyle style() const { return style_; }
 
+    [[nodiscard]] const std::string& preface() const { return preface_; }
+
     /// The line of column names in CSV; empty in JSONL.
-    [[nodiscard]] std::string head() const;
+    [[nodiscard]] std::string names() const;
+
+    /// Everything above the rows.
+    [[nodiscard]] std::string head() const { return preface_ + names(); }
 
     /// A row as a line, with its line break.
     [[nodiscard]] std::string line(const StudyRow& row) const;
@@ -95,6 +111,7 @@ class StudyTable {
   private:
     TableStyle style_;
     bool seconds_;
+    std::string preface_;
     std::vector<TableCell> columns_;  ///< only their names are used
 };
 

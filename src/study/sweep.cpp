@@ -75,6 +75,7 @@ std::string names_of(const std::vector<Chosen<Unit>>& list) {
         if (!text.empty()) text += ' ';
         text += c.unit->name;
         for (const auto& [name, value] : c.options) text += fmt::format(";{}={}", name, value);
+        text += c.spec.substr(std::min(c.spec.find(" -w "), c.spec.size()));
     }
     return text;
 }
@@ -93,18 +94,21 @@ bool names_result(const std::string& result, std::string_view wanted) {
            parts.end();
 }
 
-Sweep::Sweep(SweepRequest request) : request_(std::move(request)) {
+Sweep::Sweep(SweepRequest request)
+    : request_(std::move(request)), warp_names_(join(request_.warps, " ")) {
     choose();
-    choose_warps();
     count_units();
     write_settings();
 }
 
 void Sweep::choose() {
     for (const auto& text : request_.generators) {
-        const Spec spec = parse_spec(text);
-        generators_.push_back(chosen(find_generator(spec.name), spec, "generators"));
-        refuse_files(generators_.back());
+        const GeneratorSpec asked = parse_generator(text);
+        auto& generator = generators_.emplace_back(
+            chosen(find_generator(asked.unit.name), asked.unit, "generators"));
+        generator.spec += format_own_warps(asked.warps);
+        generator.warps = warp_list(asked.warps);
+        refuse_files(generator);
     }
     for (const auto& text : request_.measures) {
         const Spec spec = parse_spec(text);
@@ -117,16 +121,21 @@ void Sweep::choose() {
     check_keys(request_.keys, measures_);
 }
 
-void Sweep::choose_warps() {
-    for (const auto& text : request_.warps) {
-        warps_.push_back(parse_spec(text));
-        const Spec& spec = warps_.back();
+/// Index of the list with a generator's own warps and those of all generators.
+std::size_t Sweep::warp_list(std::vector<std::string> own) {
+    own.insert(own.end(), request_.warps.begin(), request_.warps.end());
+    WarpList list{.names = join(own, " ")};
+    const auto known = std::ranges::find(warp_lists_, list.names, &WarpList::names);
+    if (known != warp_lists_.end()) return static_cast<std::size_t>(known - warp_lists_.begin());
+    for (const auto& text : own) {
+        const Spec& spec = list.all.emplace_back(parse_spec(text));
         const Scramble* scramble = scramble_named(spec.name);
         (void)spec.values(scramble ? scramble->options : find_warp(spec.name).options);
-        random_warps_ |= scramble != nullptr;
-        if (scramble && scrambles_ + 1 == warps_.size()) ++scrambles_;
+        list.random |= scramble != nullptr;
+        if (scramble && list.scrambles + 1 == list.all.size()) ++list.scrambles;
     }
-    warp_names_ = join(request_.warps, " ");
+    warp_lists_.push_back(std::move(list));
+    return warp_lists_.size() - 1;
 }
 
 void Sweep::count_units() {
@@ -188,12 +197,12 @@ std::string Sweep::missing_from(const Sweep& part) const {
     const auto lacks = [](const auto& list, const auto& entry, auto projection) {
         return std::ranges::find(list, entry, projection) == list.end();
     };
-    for (const auto& [unit, values, spec, options] : part.generators_)
-        if (lacks(generators_, spec, &Chosen<Generator>::spec))
-            return fmt::format("the generator {}", spec);
-    for (const auto& [unit, values, spec, options] : part.measures_)
-        if (lacks(measures_, spec, &Chosen<Analyzer>::spec))
-            return fmt::format("the measure {}", spec);
+    for (const auto& generator : part.generators_)
+        if (lacks(generators_, generator.spec, &Chosen<Generator>::spec))
+            return fmt::format("the generator {}", generator.spec);
+    for (const auto& measure : part.measures_)
+        if (lacks(measures_, measure.spec, &Chosen<Analyzer>::spec))
+            return fmt::format("the measure {}", measure.spec);
     for (const std::uint64_t count : some.counts)
         if (lacks(all.counts, count, std::identity()))
             return fmt::format("sets of {} points", count);
@@ -227,7 +236,7 @@ std::optional<std::uint64_t> Sweep::index_of(std::string_view generator, std::ui
 
 bool Sweep::seeded(std::size_t generator) const {
     const auto& c = generators_[generator];
-    return random_warps_ || uses_seed(*c.unit, c.values);
+    return warps_of(generator).random || uses_seed(*c.unit, c.values);
 }
 
 }  // namespace stipple

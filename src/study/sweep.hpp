@@ -25,17 +25,17 @@ namespace stipple {
 
 /// A study as the user writes it.
 struct SweepRequest {
-    std::vector<std::string> generators = {};  ///< specs
+    std::vector<std::string> generators = {};  ///< as for parse_generator()
     std::vector<std::uint64_t> counts = {1024};
     std::vector<std::uint64_t> dimensions = {2};
     std::uint64_t first_seed = 1;
     std::uint64_t seeds = 1;
     std::vector<std::string> measures = {};  ///< specs of analyzers
-    std::vector<std::string> warps = {};
-    std::vector<std::string> keys = {};     ///< results to keep; empty: all numbers
-    bool curves = false;                    ///< keep lists of numbers, too
-    std::optional<double> time_limit = {};  ///< seconds for making a set, and for each measure
-    bool seconds = true;                    ///< rows include the seconds spent
+    std::vector<std::string> warps = {};     ///< specs; after the generators' own warps
+    std::vector<std::string> keys = {};      ///< results to keep; empty: all numbers
+    bool curves = false;                     ///< keep lists of numbers, too
+    std::optional<double> time_limit = {};   ///< seconds for making a set, and for each measure
+    bool seconds = true;                     ///< rows include the seconds spent
 };
 
 /// A generator or an analyzer with its options.
@@ -43,8 +43,20 @@ template <class Unit>
 struct Chosen {
     const Unit* unit = nullptr;
     Values values = {};
-    std::string spec = {};  ///< without options at their defaults
+    std::string spec = {};  ///< without options at their defaults; with its own warps
     std::vector<std::pair<std::string, std::string>> options = {};  ///< all options
+    std::size_t warps = 0;  ///< index of a generator's WarpList
+};
+
+/// Warps and scrambles of some generators, in order.
+struct WarpList {
+    std::vector<Spec> all = {};
+    std::string names = {};     ///< as typed, separated by blanks
+    std::size_t scrambles = 0;  ///< number of scrambles before the first warp
+    bool random = false;        ///< whether there are scrambles
+
+    [[nodiscard]] std::span<const Spec> first() const { return {all.data(), scrambles}; }
+    [[nodiscard]] std::span<const Spec> later() const { return std::span(all).subspan(scrambles); }
 };
 
 /// Sets that differ only in the seed.
@@ -80,13 +92,12 @@ class Sweep {
     [[nodiscard]] const SweepRequest& request() const { return request_; }
     [[nodiscard]] const std::vector<Chosen<Generator>>& generators() const { return generators_; }
     [[nodiscard]] const std::vector<Chosen<Analyzer>>& measures() const { return measures_; }
-    [[nodiscard]] const std::vector<Spec>& warps() const { return warps_; }
-    /// Scrambles before the first warp; later_warps() has the remaining warps and scrambles.
-    [[nodiscard]] std::span<const Spec> scrambles() const { return {warps_.data(), scrambles_}; }
-    [[nodiscard]] std::span<const Spec> later_warps() const {
-        return std::span(warps_).subspan(scrambles_);
+    /// Different lists of warps, each for one generator or several.
+    [[nodiscard]] const std::vector<WarpList>& warp_lists() const { return warp_lists_; }
+    [[nodiscard]] const WarpList& warps_of(std::size_t generator) const {
+        return warp_lists_[generators_[generator].warps];
     }
-    /// The warps as written in rows, separated by blanks.
+    /// The warps of all generators as written in rows, separated by blanks.
     [[nodiscard]] const std::string& warp_names() const { return warp_names_; }
 
     [[nodiscard]] std::uint64_t cells() const;
@@ -115,17 +126,15 @@ class Sweep {
 
   private:
     void choose();
-    void choose_warps();
+    [[nodiscard]] std::size_t warp_list(std::vector<std::string> own);
     void count_units();
     void write_settings();
 
     SweepRequest request_;
     std::vector<Chosen<Generator>> generators_;
     std::vector<Chosen<Analyzer>> measures_;
-    std::vector<Spec> warps_;
+    std::vector<WarpList> warp_lists_;
     std::string warp_names_;
-    std::size_t scrambles_ = 0;  ///< number of scrambles before the first warp
-    bool random_warps_ = false;
     std::uint64_t units_ = 0;
     std::vector<std::pair<std::string, std::string>> settings_;
     std::string fingerprint_;

@@ -148,21 +148,22 @@ void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t see
         job.warps = {warps.begin(), warps.end()};
         return GeneratedSets(job, run).made(0, run);
     };
+    const WarpList& list = sweep.warps_of(cell.generator);
     PointSet& points = made.before;
-    points = generated(sweep.scrambles());
-    if (sweep.later_warps().empty()) return;
+    points = generated(list.first());
+    if (list.later().empty()) return;
     // The random choices of a scramble depend only on seed and coordinates, so that a chain in two
     // parts gives the same points.
     const std::size_t d = points.dimension();
     const Plan plan{.count = points.count(), .dimension = d, .seed = seed};
     const ChainSet set = chain_set(*generator.unit, plan, generator.values);
-    const WarpChain chain(sweep.later_warps(), d, set, run);
+    const WarpChain chain(list.later(), d, set, run);
     if (!chain.traits().refills && !chain.traits().needs_whole_set) {
         made.image = image_of(points, chain, run);
         std::ranges::copy(chain.record().specs, std::back_inserter(made.image->provenance.warps));
         return;
     }
-    std::vector<Spec> warps = sweep.warps();
+    std::vector<Spec> warps = list.all;
     made.image = generated(warps);
     warps.back() = in_unit_cube(warps.back());
     points = generated(warps);
@@ -233,14 +234,21 @@ std::vector<KeyedNumber> numbers_of(const Report& report, const std::vector<std:
 
 UnitRunner::UnitRunner(const Sweep& sweep, const RunContext& run)
     : sweep_(sweep), whole_memory_(run.max_memory) {
-    const auto warps = sweep.later_warps();
-    for (const std::size_t d : sweep.request().dimensions)
-        for (std::size_t m = 0; m < sweep.measures().size() && !warps.empty(); ++m) try {
-                if (!takes(sweep.measures()[m], WarpChain(warps, d, {}, run), run))
-                    before_warps_.emplace(d, m);
-            } catch (const Error& e) {
-                if (e.kind() == ErrorKind::cancelled) throw;  // rows report all other errors
-            }
+    for (std::size_t w = 0; w < sweep.warp_lists().size(); ++w)
+        for (const std::size_t d : sweep.request().dimensions)
+            for (std::size_t m = 0; m < sweep.measures().size(); ++m)
+                if (!may_take_image({w, d, m}, run)) before_warps_.insert({w, d, m});
+}
+
+bool UnitRunner::may_take_image(const View& view, const RunContext& run) const {
+    const auto warps = sweep_.warp_lists()[view.warps].later();
+    try {
+        return warps.empty() || takes(sweep_.measures()[view.measure],
+                                      WarpChain(warps, view.dimension, {}, run), run);
+    } catch (const Error& e) {
+        if (e.kind() == ErrorKind::cancelled) throw;
+        return true;  // rows report all other errors
+    }
 }
 
 // Makes each set once, and only one set if the seed has no effect.
@@ -269,7 +277,8 @@ WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext&
             const auto [it, fresh] = results.try_emplace(unit.measure);
             UnitResult& result = it->second;
             if (fresh) {
-                const bool after = set.image && takes_image(cell.dimension, unit.measure);
+                const std::size_t warps = sweep_.generators()[cell.generator].warps;
+                const bool after = set.image && takes_image({warps, cell.dimension, unit.measure});
                 result = set.result;
                 if (set.result.failure.empty())
                     result = measured(sweep_.request(), sweep_.measures()[unit.measure],
@@ -285,33 +294,38 @@ WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext&
     return done;
 }
 
-std::optional<Error> UnitRunner::refusal_of(std::size_t measure, std::size_t dimension,
-                                            std::size_t count, const RunContext& run) const {
+std::optional<Error> UnitRunner::refusal_of(const View& view, std::size_t count,
+                                            const RunContext& run) const {
     constexpr double soon = 0.2;  // seconds allowed for a trial
-    PointSet points = some_points(dimension, count);
-    const auto warps = sweep_.later_warps();
+    PointSet points = some_points(view.dimension, count);
+    const auto warps = sweep_.warp_lists()[view.warps].later();
     try {
-        if (!warps.empty() && takes_image(dimension, measure))
-            points = image_of(points, WarpChain(warps, dimension, {}, run), unwarned(silent(run)));
+        if (!warps.empty() && takes_image(view))
+            points =
+                image_of(points, WarpChain(warps, view.dimension, {}, run), unwarned(silent(run)));
     } catch (const Error& e) {
         if (e.kind() == ErrorKind::cancelled) throw;
         return std::nullopt;  // its rows report what is wrong
     }
-    auto error = refusal(sweep_.measures()[measure], points, run, soon);
+    auto error = refusal(sweep_.measures()[view.measure], points, run, soon);
     return error && error->kind() == ErrorKind::usage ? error : std::nullopt;
 }
 
 void UnitRunner::require_options(const RunContext& run) const {
     for (std::size_t m = 0; m < sweep_.measures().size(); ++m) {
         std::optional<Error> first;
-        const auto refused = [&](std::size_t d) {
-            const auto few = refusal_of(m, d, 64, run);
+        const auto refused = [&](std::size_t w, std::size_t d) {
+            const auto few = refusal_of({w, d, m}, 64, run);
             if (few && !first) first = few;
             // For 149 points, an error that depends on the number of points has another message.
-            const auto more = few ? refusal_of(m, d, 149, run) : std::nullopt;
+            const auto more = few ? refusal_of({w, d, m}, 149, run) : std::nullopt;
             return more && std::string_view(more->what()) == few->what();
         };
-        if (std::ranges::all_of(sweep_.request().dimensions, refused))
+        bool always = true;
+        for (std::size_t w = 0; w < sweep_.warp_lists().size(); ++w)
+            for (const std::size_t d : sweep_.request().dimensions)
+                always = always && refused(w, d);
+        if (always)
             throw Error(
                 first->kind(),
                 fmt::format("analyze: {}: {}", sweep_.measures()[m].unit->name, first->what()),
@@ -321,14 +335,15 @@ void UnitRunner::require_options(const RunContext& run) const {
 
 std::vector<std::string> UnitRunner::before_warps() const {
     std::vector<std::string> sentences;
-    for (std::size_t m = 0; m < sweep_.measures().size(); ++m) {
-        const auto looks_before = [&](std::size_t d) { return !takes_image(d, m); };
-        if (std::ranges::any_of(sweep_.request().dimensions, looks_before))
-            sentences.push_back(
-                fmt::format("{} does not take points of {}: it measures them "
-                            "before the warp, on the unit cube",
-                            sweep_.measures()[m].spec, sweep_.warp_names()));
-    }
+    for (std::size_t m = 0; m < sweep_.measures().size(); ++m)
+        for (std::size_t w = 0; w < sweep_.warp_lists().size(); ++w) {
+            const auto looks_before = [&](std::size_t d) { return !takes_image({w, d, m}); };
+            if (std::ranges::any_of(sweep_.request().dimensions, looks_before))
+                sentences.push_back(
+                    fmt::format("{} does not take points of {}: it measures them "
+                                "before the warp, on the unit cube",
+                                sweep_.measures()[m].spec, sweep_.warp_lists()[w].names));
+        }
     return sentences;
 }
 

@@ -53,17 +53,21 @@ class UnitRunner {
     void require_options(const RunContext& run) const;
 
   private:
-    [[nodiscard]] bool takes_image(std::size_t dimension, std::size_t measure) const {
-        return !before_warps_.contains({dimension, measure});
-    }
-    [[nodiscard]] std::optional<Error> refusal_of(std::size_t measure, std::size_t dimension,
-                                                  std::size_t count, const RunContext& run) const;
+    /// Sets that look alike to a measure.
+    struct View {
+        std::size_t warps = 0;  ///< index of their WarpList
+        std::size_t dimension = 0;
+        std::size_t measure = 0;
+        auto operator<=>(const View&) const = default;
+    };
+    [[nodiscard]] bool may_take_image(const View& view, const RunContext& run) const;
+    [[nodiscard]] bool takes_image(const View& view) const { return !before_warps_.contains(view); }
+    [[nodiscard]] std::optional<Error> refusal_of(const View& view, std::size_t count,
+                                                  const RunContext& run) const;
 
     const Sweep& sweep_;
     std::uint64_t whole_memory_;
-    /// Pairs (dimension, index of a measure) for which the measure gets the points before the
-    /// warps.
-    std::set<std::pair<std::size_t, std::size_t>> before_warps_;
+    std::set<View> before_warps_;  ///< the measure gets the points before the warps
 };
 
 /// Returns a report's numbers in order, under dotted keys; flags are 0 and 1. Lists become numbers

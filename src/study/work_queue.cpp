@@ -24,7 +24,8 @@ SetCost set_cost(const Sweep& sweep, const Cell& cell) {
     const auto& generator = *sweep.generators()[cell.generator].unit;
     const auto n = static_cast<double>(cell.count);
     const auto d = static_cast<double>(cell.dimension);
-    SetCost cost{.make = once + 5e-8 * n * d * static_cast<double>(sweep.warps().size())};
+    const std::size_t warps = sweep.warps_of(cell.generator).all.size();
+    SetCost cost{.make = once + 5e-8 * n * d * static_cast<double>(warps)};
     cost.make += generator.cost              ? generator.cost(n, d)
                  : generator.traits.sequence ? 3e-8 * n * d
                                              : 3e-5 * n * std::pow(5.0, std::max(0.0, d - 2));

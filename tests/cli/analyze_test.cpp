@@ -759,6 +759,40 @@ TEST(Analyze, TextHasAllNumbersOfListsWhereItIsAsked) {
     EXPECT_THAT(full, HasSubstr(fmt::format(" 12 {:>12.6g} ", last)));
 }
 
+TEST(Analyze, ArrayIsAnArrayForOneReportToo) {
+    const Sandbox box;
+    const std::string one = "stipple analyze moments --generate halton --no-seconds --keys mean ";
+    const auto array = json::parse(good(box.shell(one + "--array")));
+    EXPECT_EQ(array, json::array({json::parse(good(box.shell(one)))}));
+    EXPECT_EQ(good(box.shell(one + "-m 2 --array")), good(box.shell(one + "-m 2")));
+    good(box.shell(one + "--array -o a.json && stipple plot a.json --key mean[0] -o a.svg"));
+    expect_refusal(box.shell(one + "--array -f csv"), 2, "--array: requires --format json");
+    expect_refusal(box.shell(one + "--array -o a.txt"), 2, "--array: requires --format json");
+}
+
+TEST(Analyze, GeneratedSetsHaveTheirOwnWarps) {
+    const Sandbox box;
+    const auto reports = json::parse(good(
+        box.shell("stipple analyze moments --no-seconds --generate 'rank1-lattice -w owen' "
+                  "--generate 'sobol --scramble owen -w power:exponent=2' -n 32 -s 3 -w disk")));
+    std::size_t i = 0;
+    for (const std::string made :
+         {"rank1-lattice -w owen", "sobol --scramble owen -w power:exponent=2"}) {
+        auto alone = json::parse(good(box.shell("stipple generate -q " + made +
+                                                " -n 32 -s 3 -w disk | "
+                                                "stipple analyze moments --no-seconds")));
+        EXPECT_EQ(reports[i]["input"]["source"], made);
+        EXPECT_EQ(reports[i++]["results"], alone["results"]) << made;
+    }
+    expect_refusal(box.shell("stipple analyze moments --generate 'sobol -w dsk'"), 2,
+                   "unknown warp 'dsk'");
+    good(box.shell(
+        "stipple report --generate 'rank1-lattice -w cranley-patterson' -n 16 -o r.html"));
+    EXPECT_NE(box.read("r.html").find(
+                  "stipple generate rank1-lattice --warp cranley-patterson --count 16"),
+              std::string::npos);
+}
+
 // The mean of one set has that set's locations; the mean of several has none.
 TEST(Analyze, TheMeanOfOneSetHasItsPlaces) {
     const Sandbox box;

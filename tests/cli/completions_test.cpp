@@ -75,6 +75,26 @@ TEST(Completions, OfBashKnowWordsAndFiles) {
     EXPECT_THAT(offered(box, "stipple nonsense ''"), IsEmpty());
 }
 
+TEST(Completions, OfBashKnowIntegrandsAndTheValuesInSpecs) {
+    const Sandbox box;
+    box.write("box.json", "");
+    EXPECT_THAT(offered(box, "stipple analyze integration --integrand genz-c"),
+                ElementsAre("genz-corner", "genz-continuous"));
+    EXPECT_THAT(offered(box, "stipple analyze integration --integrand genz-corner,zo"),
+                ElementsAre("genz-corner,zone-plate"));
+    EXPECT_THAT(offered(box, "stipple analyze integration : integrand = zo"),
+                ElementsAre("zone-plate"));
+    EXPECT_THAT(offered(box, "stipple study --analyze integration : integrand = zo"),
+                ElementsAre("zone-plate"));
+    EXPECT_THAT(offered(box, "stipple generate sobol : scramble ="),
+                ElementsAre("none", "digital-shift", "matrix", "owen"));
+    EXPECT_THAT(offered(box, "stipple generate halton :"), IsSupersetOf({"scramble=", "leap="}));
+    EXPECT_THAT(offered(box, "stipple study random,sobol : scramble = ow"), ElementsAre("owen"));
+    EXPECT_THAT(offered(box, "stipple generate halton --parameters bo"), ElementsAre("box.json"));
+    EXPECT_THAT(offered(box, "stipple study --parameters = bo"), ElementsAre("box.json"));
+    EXPECT_THAT(offered(box, "stipple list --q"), ElementsAre("--quiet"));
+}
+
 // The requests of shells; one candidate per line, with its help after a tab.
 TEST(Completions, NameAllThatThereIs) {
     const Sandbox box;

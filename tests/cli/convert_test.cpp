@@ -200,7 +200,7 @@ TEST(Convert, RefusesExtensionsOfOtherFormats) {
             expect_refusal(box.shell("stipple " + std::string(verb) + " -o " + name), 2,
                            "known: .bin .f64 .f32 .csv .json");
     expect_refusal(box.run({"analyze", "moments", "p.csv", "-o", "q.html"}), 2,
-                   "unknown extension '.html'; known: .json .csv .txt");
+                   "unknown extension '.html'; known: .json .csv .txt .tex");
     expect_refusal(box.run({"report", "p.csv", "-o", "q.pdf"}), 2, "known: .html .htm .json");
     EXPECT_EQ(box.files(), std::vector<std::string>{"p.csv"});
     good(box.run({"generate", "halton", "-o", "points"}));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -378,12 +379,17 @@ TEST(Generate, WritesVectorsAsOtherPackagesDo) {
     for (const std::string lattice : {"rank1-lattice --rule cbc", "polynomial-lattice"})
         for (const std::string form : {"lddata", "latnet-builder"}) {
             SCOPED_TRACE(lattice + form);
-            const std::string make = "stipple generate " + lattice + " -n 256 -d 4 ";
+            const std::string make = "stipple generate " + lattice + " -q -n 256 -d 4 ";
             good(box.shell(make + "--vector-output v.txt --vector-format " + form + " -o p.json"));
             const json meta = json::parse(box.read("p.json"))["meta"];
             EXPECT_EQ(meta["options"]["rule"], "cbc");
             std::string vector = meta["found"]["vector"];
             EXPECT_GT(meta["found"]["squared_error"].get<double>(), 0);
+            EXPECT_EQ(box.shell("stipple generate " + lattice + " -n 256 -d 4").err,
+                      fmt::format("stipple: note: {}: found generating vector {}, figure of merit "
+                                  "{} (squared worst-case error)\n",
+                                  meta["generator"].get<std::string>(), vector,
+                                  meta["found"]["squared_error"].dump()));
             std::ranges::replace(vector, ',', '\n');
             EXPECT_TRUE(box.read("v.txt").ends_with("\n" + vector + "\n")) << box.read("v.txt");
             const std::string name = lattice.substr(0, lattice.find(' '));

@@ -375,7 +375,7 @@ TEST(Reproduce, NeedsNoOptionsThatOnlyWriteFiles) {
           "void-and-cluster -n 64 --mask-image side.png"})
         for (const std::string file : {"p.json", "p.csv --meta", "p.npy --meta"}) {
             const Sandbox box;
-            good(box.shell("stipple generate " + make + " -o " + file + " && rm side.*"));
+            good(box.shell("stipple generate -q " + make + " -o " + file + " && rm side.*"));
             const std::string name = file.substr(0, file.find(' '));
             EXPECT_THAT(good(box.run({"reproduce", name})), HasSubstr(": identical: 64 points"));
             const auto files = box.files();

@@ -117,11 +117,11 @@ TEST(SideFiles, OfALatticeComeFromItsProvenance) {
          {"rank1-lattice -n 101 -d 3", "rank1-lattice -n 64 --rule korobov --multiplier 19",
           "rank1-lattice -n 8 --vector 1,3", "polynomial-lattice -n 64 -d 3"})
         for (const std::string form : {"lddata", "latnet-builder"}) {
-            good(box.shell("stipple generate " + made +
+            good(box.shell("stipple generate -q " + made +
                            " -o p.json --vector-output v.txt "
                            "--vector-format " +
                            form));
-            good(box.shell("stipple generate " + made +
+            good(box.shell("stipple generate -q " + made +
                            " -o q.json && stipple convert q.json -o r.json "
                            "--vector-output w.txt --vector-format " +
                            form));

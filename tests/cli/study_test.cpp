@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "places.hpp"
@@ -253,6 +254,174 @@ TEST(Study, AMeasureThatCannotTakeTheWarpLooksBeforeIt) {
             EXPECT_NE(row.at("value"), before);
         }
     }
+}
+
+// Warps of one generator, beside those of all; the values are those of analyze for such sets.
+TEST(Study, GeneratorsMayHaveTheirOwnWarpsAndOptions) {
+    const Sandbox box;
+    const std::string study =
+        "stipple study 'rank1-lattice -w cranley-patterson' 'sobol --scramble owen' "
+        "'halton -w owen@2,1' -n 64 --seeds 3 -w tent --analyze moments "
+        "--keys mean --no-seconds ";
+    const auto rows = rows_of(good(box.shell(study)));
+    const std::map<std::string, std::string> made = {
+        {"rank1-lattice -w cranley-patterson", "rank1-lattice -w cranley-patterson -w tent"},
+        {"sobol:scramble=owen", "sobol:scramble=owen -w tent"},
+        {"halton -w owen@2,1", "halton -w owen@2,1 -w tent"}};
+    std::set<std::string> seen;
+    for (const Row& row : rows) {
+        const std::string words = made.at(row.at("generator"));
+        EXPECT_EQ(row.at("warps"), "tent");
+        const auto report =
+            json::parse(good(box.shell("stipple generate " + words + " -q -n 64 -s " +
+                                       row.at("seed") + " | stipple analyze moments")));
+        const std::string& key = row.at("key");
+        const auto open = key.find('[');
+        if (open == std::string::npos) continue;
+        EXPECT_EQ(
+            std::stod(row.at("value")),
+            report["results"][key.substr(0, open)][std::stoul(key.substr(open + 1))].get<double>())
+            << words << key;
+        seen.insert(row.at("generator") + row.at("seed"));
+    }
+    EXPECT_GE(seen.size(), 6U);
+    EXPECT_EQ(good(box.shell("stipple study --generators 'rank1-lattice -w cranley-patterson,sobol "
+                             "--scramble owen;halton -w owen@2,1' -n 64 "
+                             "--seeds 3 -w tent --analyze moments --keys mean --no-seconds")),
+              good(box.shell(study)));
+}
+
+// The warped generators are told apart in summaries and comparisons, which pair them by seed.
+TEST(Study, OwnWarpsAreComparedAndResumed) {
+    const Sandbox box;
+    const auto study = [](const std::string& generators, int seeds) {
+        return fmt::format(
+            "stipple study {} -n 64 --seeds {} --analyze 'star-discrepancy,nearest-neighbor' "
+            "--keys value,mean --no-seconds --summary --pairs paired -o s.csv ",
+            generators, seeds);
+    };
+    const std::string both = "'rank1-lattice -w cranley-patterson' 'rank1-lattice -w disk@2,1'";
+    good(box.shell(study(both + " halton", 8)));
+    const std::string whole = box.read("s.csv");
+    const auto pairs = rows_of(box.read("s.comparisons.csv"));
+    ASSERT_GE(pairs.size(), 6U);
+    EXPECT_EQ(pairs[0].at("generator_a"), "rank1-lattice -w cranley-patterson");
+    EXPECT_EQ(pairs[0].at("generator_b"), "rank1-lattice -w disk@2,1");
+    EXPECT_EQ(pairs[0].at("method"), "paired");
+    EXPECT_EQ(pairs[0].at("sets_a"), "8");
+    good(box.shell(study(both, 4) + "--overwrite"));
+    good(box.shell(study(both + " halton", 8) + "--resume"));
+    EXPECT_EQ(box.read("s.csv"), whole);
+    expect_refusal(box.shell(study("rank1-lattice halton", 8) + "--resume"), 3, "--resume: ");
+    // One measure looks before the warp of one generator only.
+    const Outcome again = box.shell(study(both, 8) + "--overwrite");
+    EXPECT_EQ(again.err,
+              "stipple: note: star-discrepancy does not take points of disk@2,1: it measures them "
+              "before the warp, on the unit cube\n");
+    for (const Row& row : rows_of(box.read("s.csv")))
+        EXPECT_EQ(row.at("domain"), row.at("generator").ends_with("disk@2,1") &&
+                                            row.at("measure") == "nearest-neighbor"
+                                        ? "disk"
+                                        : "unit-cube");
+}
+
+TEST(Study, MetaNamesVersionAndCommandAndIsResumed) {
+    const Sandbox box;
+    for (const std::string name : {"s.csv", "s.jsonl"}) {
+        const std::string study = small + ("--meta --summary -o " + name + " ");
+        good(box.shell(study + "--threads 2"));
+        const std::string whole = box.read(name);
+        const std::string plain =
+            good(box.shell(small + std::string(name == "s.csv" ? "-f csv" : "-f jsonl")));
+        EXPECT_TRUE(whole.ends_with("\n" + plain));
+        const std::string above = whole.substr(0, whole.size() - plain.size());
+        EXPECT_THAT(above,
+                    HasSubstr(good(box.shell("stipple --version | sed 's/[^0-9]*\\([0-9.]*\\).*/"
+                                             "\\1/;q'"))
+                                  .substr(0, 5)));
+        EXPECT_THAT(above,
+                    HasSubstr("stipple study --generators 'random,sobol:scramble=owen,halton'"));
+        EXPECT_EQ(above.find("threads"), std::string::npos);
+        for (const std::size_t cut :
+             {std::size_t{3}, above.size() - 1, above.size() + 5, above.size() + 900}) {
+            box.write(name, whole.substr(0, cut));
+            box.write(name + ".journal", "{\"torn");
+            EXPECT_EQ(good(box.shell(study + "--resume")), "") << cut;
+            EXPECT_EQ(box.read(name), whole) << cut;
+        }
+        EXPECT_EQ(good(box.shell(small + ("--resume -o " + name))), "");
+        EXPECT_EQ(box.read(name), whole);
+        box.write(name, above + plain.substr(0, 900) + "nonsense\n" + plain.substr(900));
+        expect_refusal(box.shell(study + "--resume"), 3,
+                       fmt::format("{}:{}: this is not a row of a study", name,
+                                   1 + std::ranges::count(above + plain.substr(0, 900), '\n')));
+        good(box.shell(study + "--overwrite"));
+        EXPECT_EQ(box.read(name), whole);
+        good(box.shell("stipple plot " + name + " -o a.svg"));
+        expect_refusal(box.run({"reproduce", name}), 3, "a table of a study, without points");
+    }
+    good(box.shell("stipple plot s.summary.csv -o b.svg"));
+}
+
+// Means, half-widths and root mean squares are those of --summary.
+TEST(Study, WideTablesHaveARowForEachCountAndAColumnForEachGenerator) {
+    const Sandbox box;
+    const std::string study = small + std::string("--keys value ");
+    good(box.shell(study + "--summary -o s.csv"));
+    const std::string csv = good(box.shell(study + "--wide"));
+    const auto wide = rows_of(csv);
+    ASSERT_EQ(wide.size(), 6U);
+    std::size_t cells = 0;
+    for (const Row& mean : rows_of(box.read("s.summary.csv")))
+        for (const Row& row : wide) {
+            if (row.at("count") != mean.at("count") || row.at("measure") != mean.at("measure"))
+                continue;
+            const std::string& generator = mean.at("generator");
+            EXPECT_EQ(row.at(generator), mean.at("mean"));
+            if (generator != "halton") {
+                EXPECT_NEAR(std::stod(row.at(generator + " half_width")),
+                            (std::stod(mean.at("t_high")) - std::stod(mean.at("t_low"))) / 2,
+                            1e-15);
+            }
+            ++cells;
+        }
+    EXPECT_EQ(cells, 18U);
+    for (const std::string table : {"s.csv", "s.summary.csv"})
+        EXPECT_EQ(good(box.shell("stipple study --wide " + table)), csv) << table;
+    EXPECT_EQ(good(box.shell("stipple study --wide s.csv -f jsonl | head -1 | grep -c half_width")),
+              "1\n");
+    expect_refusal(box.shell("stipple study --wide s.csv -n 8"), 2, "--count: does not apply");
+    box.write("p.csv", "x,y\n0,0\n");
+    expect_refusal(box.shell("stipple study --wide p.csv"), 3,
+                   "p.csv: is not the table of a study");
+}
+
+TEST(Study, LatexIsAWideTableWithoutConstantColumns) {
+    const Sandbox box;
+    const std::string study =
+        "stipple study 'random -w owen' 'sobol:scramble=owen' -n 16,64 --seeds 4 --analyze "
+        "integration:integrand=genz-gaussian --keys error ";
+    good(box.shell(study + "--wide -o t.tex"));
+    const std::string text = box.read("t.tex");
+    EXPECT_THAT(text, ::testing::StartsWith("% needs \\usepackage{booktabs}\n% stipple "));
+    EXPECT_THAT(text, HasSubstr("\n% key: genz-gaussian.error\n"));
+    EXPECT_THAT(text, HasSubstr("\\begin{tabular}{rrr}\n\\toprule\n$n$ & random -w owen & "
+                                "sobol:scramble=owen \\\\\n\\midrule\n16 & $"));
+    EXPECT_THAT(text, HasSubstr("\n64 & $"));
+    EXPECT_THAT(text, ::testing::EndsWith("\\bottomrule\n\\end{tabular}\n"));
+    good(box.shell(study + "-o s.csv"));
+    const auto body = [](const std::string& all) { return all.substr(all.find("\\begin")); };
+    EXPECT_EQ(body(good(box.shell("stipple study s.csv -f latex"))), body(text));
+    // Runs of pdflatex are possible where it is installed.
+    if (box.shell("command -v pdflatex && kpsewhich booktabs.sty").code != 0) return;
+    good(
+        box.shell("stipple analyze moments,l2-discrepancy --generate 'sobol --scramble owen' "
+                  "--generate random -m 4 --average -f latex > u.tex"));
+    box.write("d.tex",
+              "\\documentclass{article}\\usepackage{booktabs}\\begin{document}\\input{t}\n\n"
+              "\\input{u}\\end{document}\n");
+    const Outcome made = box.shell("pdflatex -interaction=batchmode -halt-on-error d.tex");
+    EXPECT_EQ(made.code, 0) << made.out;
 }
 
 // The root mean square of errors, normal numbers of mean 0, has an interval by chi-square; with 4
@@ -799,8 +968,8 @@ TEST(Study, BadInputIsOneLineThatHelps) {
         {"--generators random --analyze moments -f json",
          "stipple: --format: 'json' is not one of csv, jsonl; did you mean 'jsonl'?\n"},
         {"--generators random --analyze moments -o study.json",
-         "stipple: --output: a study's table is .csv or .jsonl; 'study.json' is neither; --format "
-         "csv or jsonl selects a format for any file name\n"},
+         "stipple: --output: a study's table is .csv or .jsonl or, with --wide, .tex; 'study.json' "
+         "is none of these; --format csv or jsonl selects a format for any file name\n"},
         {"--generators poison --analyze moments",
          "stipple: unknown generator 'poison'; did you mean 'poisson'?\n"},
         {"--generators random --analyze star-discrepancy --keys worst_bx",
@@ -808,7 +977,16 @@ TEST(Study, BadInputIsOneLineThatHelps) {
         {"--generators random --analyze moments,star-discrepancy --keys value",
          "stipple: --keys: none of these is a result of moments: value\n"},
         {"points.csv --generators random --analyze moments",
-         "stipple: study takes no input; 'points.csv' is not understood\n"}};
+         "stipple: unknown generator 'points.csv'"},
+        {"--generators 'random -w dsk' --analyze moments",
+         "stipple: unknown warp 'dsk'; did you mean 'disk'?\n"},
+        {"--generators 'random -n 7' --analyze moments",
+         "stipple: 'random -n 7': -n is not understood; only -w WARP and the generator's --OPTIONs "
+         "may follow it\n"},
+        {"random --analyze moments --wide --summary",
+         "stipple: --summary: is for tables of rows, not for a wide one\n"},
+        {"random --analyze moments --confidence 0.9",
+         "stipple: --confidence: requires --summary or --wide, which are not given\n"}};
     for (const auto& [arguments, message] : cases) {
         const Outcome outcome = box.shell("stipple study " + arguments);
         EXPECT_EQ(outcome.code, 2) << arguments;

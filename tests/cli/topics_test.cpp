@@ -57,6 +57,7 @@ TEST(Topics, ExplainTerms) {
     EXPECT_GT(glossary_terms().size(), 60U);
     for (const std::string& term : glossary_terms()) EXPECT_NE(glossary_entry(term), "") << term;
     EXPECT_EQ(glossary_entry("NET"), glossary_entry("nets"));
+    for (const char* term : {"grey", "gray", "lens", "runs"}) EXPECT_NE(glossary_entry(term), "");
     EXPECT_EQ(good(box.run({"help", "elementary", "interval"})),
               good(box.run({"help", "elementary interval"})));
     const std::string strata = good(box.run({"help", "Strata"}));

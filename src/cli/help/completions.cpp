@@ -12,6 +12,7 @@
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "math/integrands/integrands.hpp"
 
 namespace stipple::cli {
 
@@ -55,10 +56,13 @@ Candidates joined(Candidates one, const Candidates& two) {
     return one;
 }
 
-/// Candidates for the value of a unit's option.
-Candidates values_of(const Option& option) {
+/// Candidates for the value of a unit's option; in a list, for its last item.
+Candidates values_of(const Option& option, const std::string& current = {}) {
     if (option.type == "file") return {files};
-    return words_of(option.choices);
+    if (option.name != "integrand") return words_of(option.choices);
+    Candidates found = with_summaries(integrand_kinds());
+    for (Candidate& candidate : found) candidate.word.insert(0, current, 0, current.rfind(',') + 1);
+    return found;
 }
 
 /// Candidates for the end of a partly typed spec or, if `list`, list of specs such as
@@ -104,12 +108,14 @@ Candidates values_of(const CommonOption& common, const std::string& current) {
     return values_of(common.option);
 }
 
-/// Candidates for a verb's arguments that are not units: words, or files.
-Candidates operands_of(Verb verb) {
+/// Candidates for a verb's arguments that are not units of it: words, or files.
+Candidates operands_of(Verb verb, const std::string& current) {
     Candidates found;
     switch (verb) {
         case Verb::generate:
             return {};
+        case Verb::study:
+            return in_spec(units_of("generators"), current, true);
         case Verb::list:
             for (const Kind& kind : catalog()) found.push_back({kind.name});
             return found;
@@ -146,7 +152,8 @@ std::optional<Candidates> values_behind(const std::string& before, const std::st
     }
     if (unit != nullptr)
         for (const Option& option : own_options(verb, *unit))
-            if (before == "--" + option.name && option.type != "flag") return values_of(option);
+            if (before == "--" + option.name && option.type != "flag")
+                return values_of(option, current);
     return std::nullopt;
 }
 
@@ -165,7 +172,7 @@ Candidates candidates(const std::vector<std::string>& words, const std::string& 
         named ? find_unit(*kind, named->substr(0, named->find_first_of("@:,;"))) : nullptr;
     if (const auto values = values_behind(before, current, info->verb, unit)) return *values;
     if (words.back().starts_with('-') && words.back() != "-") return option_names(info->verb, unit);
-    if (!kind || unit != nullptr) return operands_of(info->verb);
+    if (!kind || unit != nullptr) return operands_of(info->verb, current);
     return in_spec(kind->units, current, info->verb == Verb::analyze);
 }
 

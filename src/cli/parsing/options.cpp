@@ -173,16 +173,19 @@ constexpr double most_sets = 1'000'000'000;
 constexpr double most_work = 0x1p60;
 
 const std::vector<Row> rows = {
-    {"--generators", "SPECS", "", "generators to compare: sobol:scramble=owen,halton", study,
-     &SweepRequest::generators},
+    {"--generators", "SPECS", "",
+     "generators to compare, also without this option's name: sobol:scramble=owen,halton or "
+     "'sobol --scramble owen' 'rank1-lattice -w cranley-patterson'",
+     study, &SweepRequest::generators},
     {"--analyze", "SPECS", "", "analyzers to run: star-discrepancy,integration:integrand=...",
      study, &SweepRequest::measures},
     {"--config", "FILE", "",
      "JSON file of the study (schema: data/study.schema.json); other options override it", study,
      &StudyRequest::config},
     {"--generate", "GENERATOR[:OPT=V,...]", "",
-     "also use points of this generator, after those of the INPUTs; -n, -d, --seed, --start and "
-     "--warp are those of 'stipple generate' and apply to all generators",
+     "also use points of this generator, after those of the INPUTs: halton, 'sobol --scramble "
+     "owen', 'rank1-lattice -w cranley-patterson'; -n, -d, --seed, --start and --warp are those of "
+     "'stipple generate' and apply to all generators",
      analyze | plot | report, &Sources::generate},
     {"-n,--count", "COUNTS", "1024", "points in a set: 16,64,256 or 2^4..2^16 or 16..65536*2",
      study, &SweepRequest::counts, 1, most_points},
@@ -258,7 +261,8 @@ const std::vector<Row> rows = {
      &Request::output},
     {"-f,--format", "FORMAT", "", "file format; default: from the extension, else csv", writers,
      &Writing::format},
-    {"-f,--format", "text|json|csv", "", "output format; default: text on a terminal, else json",
+    {"-f,--format", "text|json|csv|latex", "",
+     "output format; default: text on a terminal, else json; latex is a table with booktabs",
      analyze, &AnalyzeRequest::format},
     {"-f,--format", "html|json", "", "output format; default: from the extension, else html",
      report, &ReportRequest::json},
@@ -268,8 +272,9 @@ const std::vector<Row> rows = {
     {"-f,--format", "svg|pdf|png|text", "",
      "picture format; default: from the extension; text is Braille, as wide as the terminal", plot,
      &PlotRequest::format},
-    {"-f,--format", "csv|jsonl", "", "table format; default: from the extension, else csv", study,
-     &StudyRequest::format},
+    {"-f,--format", "csv|jsonl|latex", "",
+     "table format; default: from the extension, else csv; latex is a wide table with booktabs",
+     study, &StudyRequest::format},
     {"--json", "", "", "short for --format json", analyze | list | report | reproduce, nullptr},
     {"--long", "", "", "with the traits and options of every unit", list, &ListRequest::full},
     {"--man", "", "", "as a manual page, for man", help, &HelpRequest::man},
@@ -329,6 +334,10 @@ const std::vector<Row> rows = {
      "means with standard errors, t and bootstrap intervals, medians, root mean squares, and "
      "pairwise comparisons of generators with Holm-corrected p-values",
      study, &StudyRequest::summary},
+    {"--wide", "", "",
+     "instead of rows, a table of the means with a row for each count and a column for each "
+     "generator; also of the table or summary of a study that is the INPUT",
+     study, &StudyRequest::wide},
     {"--curves", "", "", "also keep lists, a row for each number: radial.power[3]", study,
      &SweepRequest::curves},
     {"--resume", "", "",
@@ -350,6 +359,10 @@ const std::vector<Row> rows = {
      "write the provenance: in '# ' lines on top of text formats; for npy, bin, utk and psa in "
      "FILE.meta.json",
      writers, &Writing::meta},
+    {"--meta", "", "",
+     "write the version and the command above the table: in '# ' lines or, in "
+     "jsonl, as an object",
+     study, &StudyRequest::meta},
     {"--vector-output", "FILE", "",
      "also write the generating vector of a lattice, from the provenance of its points", convert,
      &ConvertRequest::vector_output},
@@ -460,8 +473,7 @@ const Rule rules[] = {
      "--density-at leaves the points where they are"},
     {convert, "vector-format", Rule::need, "vector-output",
      "requires --vector-output, which is not given"},
-    {study, "pairs,confidence,bootstrap", Rule::need, "summary",
-     "requires --summary, which is not given"},
+    {study, "pairs,bootstrap", Rule::need, "summary", "requires --summary, which is not given"},
     {study, "resume", Rule::exclude, "overwrite", {}}};
 
 }  // namespace table
@@ -511,6 +523,15 @@ std::unique_ptr<Request> request_of(const Arguments& arguments) {
 }
 
 void WarpRequest::settle() { densities = !density_at; }
+
+void StudyRequest::settle() {
+    if (wide || format == StudyFormat::latex) {
+        wide = true;
+        refuse_options(*this, "summary,resume", "is for tables of rows, not for a wide one");
+    } else if (!summary && !has("config")) {
+        refuse_options(*this, "confidence", "requires --summary or --wide, which are not given");
+    }
+}
 
 void AnalyzeRequest::settle() {
     for (const std::string& text : specs) {

@@ -109,7 +109,7 @@ struct ConvertRequest : Writing {
     int perform(Session& session) const override;
 };
 
-enum class ReportFormat { text, json, csv };
+enum class ReportFormat { text, json, csv, latex };
 
 struct AnalyzeRequest : Sources {
     std::vector<std::pair<const Analyzer*, Values>> analyzers = {};
@@ -163,14 +163,19 @@ struct ReportRequest : Sources {
     int perform(Session& session) const override;
 };
 
+enum class StudyFormat { csv, jsonl, latex };
+
 struct StudyRequest : Request, SweepRequest, SummaryOptions {
     std::optional<std::string> config = {};
-    std::optional<TableStyle> format = {};
+    std::optional<StudyFormat> format = {};
     bool summary = false;
+    bool wide = false;
+    bool meta = false;
     bool resume = false;
     bool overwrite = false;
     bool yes = false;
 
+    void settle() override;
     int perform(Session& session) const override;
 };
 

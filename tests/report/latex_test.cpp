@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "report/latex.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace stipple::testing::latex_test {
+
+const double unknown = std::nan("");
+
+TEST(Latex, EscapesItsSpecialCharacters) {
+    EXPECT_EQ(latex_text("a_b & 50% #1 $x {y} ~^\\"),
+              "a\\_b \\& 50\\% \\#1 \\$x \\{y\\} "
+              "\\textasciitilde{}\\textasciicircum{}\\textbackslash{}");
+    EXPECT_EQ(latex_text("rank1-lattice --x <1|2>"),
+              "rank1-lattice -{}-x \\textless{}1\\textbar{}2\\textgreater{}");
+}
+
+// Half-widths have two digits, and their numbers as many decimals.
+TEST(Latex, NumbersHaveTheDigitsThatTheirIntervalAllows) {
+    EXPECT_EQ(latex_number(0.04301, 0.00214), "$0.0430 \\pm 0.0021$");
+    EXPECT_EQ(latex_number(-12.345, 1.3), "$-12.3 \\pm 1.3$");
+    EXPECT_EQ(latex_number(12345.6, 1234), "$12346 \\pm 1234$");
+    EXPECT_EQ(latex_number(1.234e-7, 5.6e-9), "$(1.234 \\pm 0.056) \\times 10^{-7}$");
+    EXPECT_EQ(latex_number(0, 0.5), "$0.00 \\pm 0.50$");
+    EXPECT_EQ(latex_number(0.0123456, unknown), "$0.01235$");
+    EXPECT_EQ(latex_number(1.5e-9, 0), "$1.500 \\times 10^{-9}$");
+    EXPECT_EQ(latex_number(64, unknown), "$64$");
+    EXPECT_EQ(latex_number(0, unknown), "$0$");
+    EXPECT_EQ(latex_number(unknown, unknown), "--");
+    EXPECT_EQ(latex_number(-INFINITY, unknown), "$-\\infty$");
+}
+
+TEST(Latex, TablesHaveTheRulesOfBooktabs) {
+    const LatexTable table{.comments = {"100 %"},
+                           .head = {"set", "$n$"},
+                           .rows = {{"a", "1"}, {"b", "2"}},
+                           .words = 1};
+    EXPECT_EQ(table.text(),
+              "% 100 %\n\\begin{tabular}{lr}\n\\toprule\nset & $n$ \\\\\n\\midrule\n"
+              "a & 1 \\\\\nb & 2 \\\\\n\\bottomrule\n\\end{tabular}\n");
+}
+
+TEST(Latex, ReportsAreATableForEachAnalyzer) {
+    Measurement one{.analyzer = "moments",
+                    .source = "a_b.csv",
+                    .set = 1,
+                    .count = 8,
+                    .dimension = 2,
+                    .domain = "unit-cube"};
+    one.results.add("mean", 0.5).add("curve", Report::Curve{1, 2}).add("word", "fine");
+    Measurement two = one;
+    two.source = "-";
+    two.set.reset();
+    two.results = Report().add("mean", 0.25).add("largest", std::int64_t{7});
+    two.standard_error = Report().add("mean", 0.012);
+    Measurement other = one;
+    other.analyzer = "other";
+    const std::string text = to_latex(std::vector{one, other, two});
+    EXPECT_EQ(text,
+              "% needs \\usepackage{booktabs}\n"
+              "% moments\n% means +- standard errors\n"
+              "\\begin{tabular}{lrrr}\n\\toprule\nset & $n$ & mean & largest \\\\\n\\midrule\n"
+              "a\\_b.csv, set 1 & 8 & $0.5000$ & -- \\\\\n"
+              "standard input & 8 & $0.250 \\pm 0.012$ & $7$ \\\\\n"
+              "\\bottomrule\n\\end{tabular}\n"
+              "% other\n\\begin{tabular}{lrr}\n\\toprule\nset & $n$ & mean \\\\\n\\midrule\n"
+              "a\\_b.csv, set 1 & 8 & $0.5000$ \\\\\n\\bottomrule\n\\end{tabular}\n");
+}
+
+}  // namespace stipple::testing::latex_test
