@@ -273,12 +273,16 @@ py::list study(const std::vector<std::string>& generators,
 using StudyRow = std::tuple<std::string, std::string, std::uint64_t, std::uint64_t, std::uint64_t,
                             std::string, std::optional<double>, std::string>;
 
-py::list means(const std::vector<StudyRow>& rows, double confidence) {
+std::vector<StudyValue> values_of(const std::vector<StudyRow>& rows) {
     std::vector<StudyValue> values;
     for (const auto& [generator, analyzer, dimension, count, seed, key, value, failure] : rows)
         values.push_back({generator, analyzer, dimension, count, seed, key, value, failure});
+    return values;
+}
+
+py::list means(const std::vector<StudyRow>& rows, double confidence) {
     py::list all;
-    for (const StudyMean& m : means_of(values, confidence))
+    for (const StudyMean& m : means_of(values_of(rows), confidence))
         all.append(py::make_tuple(m.generator, m.analyzer, m.dimension, m.count, m.key, m.sets,
                                   m.mean, m.low, m.high, m.rms));
     return all;
@@ -329,17 +333,8 @@ plot::Chart report_chart(const std::vector<Reported>& reported, const std::strin
 }
 
 plot::Chart study_chart(const std::vector<StudyRow>& rows, const std::string& key) {
-    StudySummary summary;
-    for (const auto& [generator, analyzer, dimension, count, seed, name, value, failure] : rows)
-        if (value)
-            summary.add({.generator = generator,
-                         .dimension = dimension,
-                         .count = count,
-                         .seed = seed,
-                         .measure = analyzer,
-                         .key = name,
-                         .value = value});
-    plot::StudyChart found = plot::study_chart(summary.mean_rows({.resamples = 0}, {}), key);
+    plot::StudyChart found =
+        plot::study_chart(summary_of(values_of(rows)).mean_rows({.resamples = 0}, {}), key);
     if (!found.left_out.empty())
         show({"not drawn: " + join(found.left_out, ", ") + "; key selects one result"});
     return std::move(found.chart);

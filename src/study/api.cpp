@@ -43,9 +43,7 @@ std::vector<StudyValue> study(const Study& wanted, const RunContext& run) try {
     throw_to_caller();
 }
 
-std::vector<StudyMean> means_of(std::span<const StudyValue> values, double confidence) {
-    if (!(confidence > 0 && confidence < 1))
-        fail(ErrorKind::usage, "a confidence of {} is outside (0, 1)", confidence);
+StudySummary summary_of(std::span<const StudyValue> values) {
     StudySummary summary;
     for (const StudyValue& v : values)
         if (v.value)
@@ -56,6 +54,13 @@ std::vector<StudyMean> means_of(std::span<const StudyValue> values, double confi
                          .measure = v.analyzer,
                          .key = v.key,
                          .value = v.value});
+    return summary;
+}
+
+std::vector<StudyMean> means_of(std::span<const StudyValue> values, double confidence) {
+    if (!(confidence > 0 && confidence < 1))
+        fail(ErrorKind::usage, "a confidence of {} is outside (0, 1)", confidence);
+    const StudySummary summary = summary_of(values);
     std::vector<StudyMean> means;
     for (const MeanRow& row :
          summary.mean_rows({.confidence = confidence, .resamples = 0}, RunContext()))

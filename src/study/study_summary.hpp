@@ -11,11 +11,13 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
 #include <vector>
 
+#include "stipple/study.hpp"
 #include "study/statistics.hpp"
 #include "study/study_table.hpp"
 
@@ -110,6 +112,9 @@ class StudySummary {
     };
     std::map<Cell, Failed> failed_;  ///< all cells, including those without failures
 };
+
+/// Summary of the values of a study in memory; values of analyzers that failed are left out.
+StudySummary summary_of(std::span<const StudyValue> values);
 
 /// Whether results under a key are errors, for which the distance from 0 matters.
 bool is_error_key(std::string_view key);

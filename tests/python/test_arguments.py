@@ -154,6 +154,9 @@ def test_wrong_arguments_of_methods_get_a_sentence(tmp_path):
         (lambda: sequence.blocks(3, -1), "blocks(3, -1)"),
         *((lambda path=path: picture.save(path), f"save({words_of(path)})") for path in [*PATH, None, tmp_path / "a.gif"]),
         *((lambda level=level: study.means(level), f"means({words_of(level)})") for level in [*REAL, 0, 1, None]),
+        *((lambda part=part, wrong=wrong: stipple.plot([study[0]._replace(**{part: wrong})]), f"{part}={words_of(wrong)}")
+          for part in stipple.StudyValue._fields for wrong in (Odd(), b"x", -1.5, [3]) if (part, wrong) != ("value", -1.5)),
+        *((lambda rows=rows: stipple.Study(rows).means(), f"Study({rows})") for rows in ([3], ["a"], [("a",) * 8])),
     ])
 
 

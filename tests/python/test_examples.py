@@ -6,7 +6,6 @@ import runpy
 from pathlib import Path
 
 import pytest
-import stipple
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -17,11 +16,6 @@ def test_readme_runs():
     exec(block, names)
     assert names["points"].shape == (1024, 5)
     assert abs(names["found"].estimate - 0.25) < 5 * names["found"].standard_error + 1e-9
-
-
-def test_type_stubs_are_python():
-    path = Path(stipple.__file__).parent / "__init__.pyi"
-    compile(path.read_text(encoding="utf-8"), str(path), "exec")
 
 
 def test_guide_runs(tmp_path, monkeypatch):

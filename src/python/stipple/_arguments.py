@@ -4,6 +4,7 @@ that names the argument, the value, and what was expected."""
 
 import operator
 import os
+import sys
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Never, TypeAlias
 
@@ -124,8 +125,6 @@ def run_options(threads: object = 0, max_memory: object = 0,
 
 
 def _bar(share: float) -> None:
-    import sys
-
     done = int(30 * share)
     end = "\r\033[K" if share >= 1 else ""
     sys.stderr.write(f"\r[{'=' * done}{' ' * (30 - done)}] {100 * share:3.0f} %{end}")

@@ -46,7 +46,7 @@ def _draw_bars(ax: Any, panel: dict[str, Any]) -> None:
 
 
 def _draw_curves(ax: Any, panel: dict[str, Any]) -> None:
-    for name, edges, heights in (bar for bar in panel["bars"]):
+    for name, edges, heights in panel["bars"]:
         ax.stairs(heights, edges, label=name or None)
     for name, x, y, low, high in panel["series"]:
         [line] = ax.plot(x, y, label=name or None, marker="." if len(x) < 30 else None)

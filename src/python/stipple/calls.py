@@ -506,7 +506,17 @@ class Study(list[StudyValue]):
 
 
 def _rows(study: Iterable[StudyValue]) -> list[tuple[Any, ...]]:
-    return [tuple(row) for row in study]
+    rows: list[tuple[Any, ...]] = []
+    for i, row in enumerate(study):
+        if not isinstance(row, StudyValue):
+            refuse(f"study[{i}]", row, "a StudyValue")
+        value = None if row.value is None else real("value", row.value, -np.inf, np.inf, "a number")
+        rows.append((
+            text("generator", row.generator), text("analyzer", row.analyzer),
+            whole("dimension", row.dimension), whole("count", row.count), seed_of(row.seed),
+            text("key", row.key), value, text("failure", row.failure),
+        ))
+    return rows
 
 
 def study(generators: Units, analyzers: Units, *, n: int | Iterable[int] = (1024,),
