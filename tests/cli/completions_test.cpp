@@ -79,9 +79,9 @@ TEST(Completions, OfBashKnowIntegrandsAndTheValuesInSpecs) {
     const Sandbox box;
     box.write("box.json", "");
     EXPECT_THAT(offered(box, "stipple analyze integration --integrand genz-c"),
-                ElementsAre("genz-corner", "genz-continuous"));
-    EXPECT_THAT(offered(box, "stipple analyze integration --integrand genz-corner,zo"),
-                ElementsAre("genz-corner,zone-plate"));
+                ElementsAre("genz-corner-peak", "genz-continuous"));
+    EXPECT_THAT(offered(box, "stipple analyze integration --integrand genz-gaussian,zo"),
+                ElementsAre("genz-gaussian,zone-plate"));
     EXPECT_THAT(offered(box, "stipple analyze integration : integrand = zo"),
                 ElementsAre("zone-plate"));
     EXPECT_THAT(offered(box, "stipple study --analyze integration : integrand = zo"),
