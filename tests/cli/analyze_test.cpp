@@ -761,23 +761,24 @@ TEST(Analyze, TextHasAllNumbersOfListsWhereItIsAsked) {
 
 TEST(Analyze, ArrayIsAnArrayForOneReportToo) {
     const Sandbox box;
-    const std::string one = "stipple analyze moments --generate halton --no-seconds --keys mean ";
+    const std::string one = "stipple analyze moments --generate random --no-seconds --keys mean ";
     const auto array = json::parse(good(box.shell(one + "--array")));
     EXPECT_EQ(array, json::array({json::parse(good(box.shell(one)))}));
     EXPECT_EQ(good(box.shell(one + "-m 2 --array")), good(box.shell(one + "-m 2")));
-    good(box.shell(one + "--array -o a.json && stipple plot a.json --key mean[0] -o a.svg"));
+    good(
+        box.shell("stipple analyze periodogram --generate random -n 64 --array -o a.json && "
+                  "stipple plot a.json -o a.svg"));
     expect_refusal(box.shell(one + "--array -f csv"), 2, "--array: requires --format json");
     expect_refusal(box.shell(one + "--array -o a.txt"), 2, "--array: requires --format json");
 }
 
 TEST(Analyze, GeneratedSetsHaveTheirOwnWarps) {
     const Sandbox box;
-    const auto reports = json::parse(good(
-        box.shell("stipple analyze moments --no-seconds --generate 'rank1-lattice -w owen' "
-                  "--generate 'sobol --scramble owen -w power:exponent=2' -n 32 -s 3 -w disk")));
+    const auto reports = json::parse(
+        good(box.shell("stipple analyze moments --no-seconds --generate 'rank1-lattice -w owen' "
+                       "--generate 'sobol --scramble owen' -n 32 -s 3 -w disk")));
     std::size_t i = 0;
-    for (const std::string made :
-         {"rank1-lattice -w owen", "sobol --scramble owen -w power:exponent=2"}) {
+    for (const std::string made : {"rank1-lattice -w owen", "sobol --scramble owen"}) {
         auto alone = json::parse(good(box.shell("stipple generate -q " + made +
                                                 " -n 32 -s 3 -w disk | "
                                                 "stipple analyze moments --no-seconds")));
