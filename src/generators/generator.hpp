@@ -91,6 +91,13 @@ struct GeneratorTraits {
     std::string more_dimensions = {};  ///< option whose file allows more than max_dimension
 };
 
+/// Integers in the formula of a generator's points, such as the columns of a matrix.
+struct Constants {
+    std::string name;
+    std::vector<std::uint64_t> numbers;
+    bool words = false;  ///< 32-bit words, which code without 64-bit integers also reads
+};
+
 /// Provenance entry of a search that was stopped and kept its best points.
 inline constexpr std::pair<const char*, const char*> interrupted{"ended", "interrupted"};
 
@@ -141,6 +148,11 @@ struct Generator {
     /// For generators of digits in bases other than 2: the base of each coordinate, the default of
     /// scrambles.
     std::function<std::vector<std::uint32_t>(const Plan&, const Values&)> bases = {};
+
+    /// Constants of the points' formula, besides count, dimension, bases and options, for emitted
+    /// code that makes the same points (emit/). May search for them.
+    std::function<std::vector<Constants>(const Plan&, const Values&, const RunContext&)> constants =
+        {};
 
     /// Largest seed, if the engine's seeding takes fewer than 64 bits.
     std::function<std::uint64_t(const Values&)> max_seed = {};

@@ -30,11 +30,28 @@ constexpr Param<Path> directions{
              "s a m_1 ... m_s\" for each dimension from 2 on; or LDData's \"# sobol\", with the m "
              "alone. Default: a table of Joe and Kuo"}};
 
+BinaryMatrices matrices_of(const Plan& plan, const Values& options) {
+    return options.given(directions)
+               ? sobol_matrices(plan.dimension, binary_digits, options[directions])
+               : sobol_matrices(plan.dimension, binary_digits);
+}
+
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
-    auto matrices = options.given(directions)
-                        ? sobol_matrices(plan.dimension, binary_digits, options[directions])
-                        : sobol_matrices(plan.dimension, binary_digits);
-    return binary_sequence(std::move(matrices), plan, options);
+    return binary_sequence(matrices_of(plan, options), plan, options);
+}
+
+/// All columns of each matrix; and the upper halves of the first 32, for 32-bit indices.
+std::vector<Constants> constants(const Plan& plan, const Values& options, const RunContext&) {
+    const BinaryMatrices matrices = matrices_of(plan, options);
+    Constants all{"columns", {}};
+    Constants upper{"upper", {}, true};
+    for (std::size_t k = 0; k < plan.dimension; ++k)
+        for (std::size_t j = 0; j < matrices.digits(); ++j) {
+            const std::uint64_t column = matrices.columns[j * plan.dimension + k];
+            all.numbers.push_back(column);
+            if (j < 32) upper.numbers.push_back(column >> 32);
+        }
+    return {all, upper};
 }
 
 }  // namespace
@@ -53,7 +70,8 @@ Generator unit() {
             .aliases = {"lp-tau"},
             .sequence = make,
             .uses_seed = binary_uses_seed,
-            .notes = binary_notes};
+            .notes = binary_notes,
+            .constants = constants};
 }
 
 }  // namespace stipple::generators::sobol

@@ -234,6 +234,14 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
     return points;
 }
 
+/// The generating vector, modulo the number of points.
+std::vector<Constants> constants(const Plan& plan, const Values& options, const RunContext& run) {
+    Constants z{"z", vector_of(plan, options, run)};
+    for (std::uint64_t& number : z.numbers) number %= plan.count;
+    z.numbers.resize(plan.dimension);
+    return {z};
+}
+
 std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
                                const Values& options) {
     const std::string chosen = rule_of(options);
@@ -274,7 +282,8 @@ Generator unit() {
             .plan = plan,
             .sequence = make,
             .settle = [](Values& options) { options.put(rule.name, rule_of(options), false); },
-            .notes = notes};
+            .notes = notes,
+            .constants = constants};
 }
 
 }  // namespace stipple::generators::rank1_lattice

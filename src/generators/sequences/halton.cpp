@@ -103,6 +103,18 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
         });
 }
 
+/// Faure's permutations of all bases, one after the other, and where each begins.
+std::vector<Constants> constants(const Plan& plan, const Values&, const RunContext&) {
+    Constants images{"images", {}, true};
+    Constants begins{"begins", {}, true};
+    for (std::size_t k = 0; k < plan.dimension; ++k) {
+        begins.numbers.push_back(images.numbers.size());
+        for (const std::uint32_t image : faure_permutation(primes[k]))
+            images.numbers.push_back(image);
+    }
+    return {images, begins};
+}
+
 bool random_digits(const Values& options) {
     return options[scramble] == "permutation" || options[scramble] == "owen";
 }
@@ -120,10 +132,12 @@ Generator unit() {
         .plan = plan,
         .sequence = make,
         .uses_seed = random_digits,
-        .bases = [](const Plan& plan, const Values&) {
-            const auto end = primes.begin() + static_cast<std::ptrdiff_t>(plan.dimension);
-            return std::vector<std::uint32_t>(primes.begin(), end);
-        }};
+        .bases =
+            [](const Plan& plan, const Values&) {
+                const auto end = primes.begin() + static_cast<std::ptrdiff_t>(plan.dimension);
+                return std::vector<std::uint32_t>(primes.begin(), end);
+            },
+        .constants = constants};
 }
 
 }  // namespace stipple::generators::halton

@@ -161,6 +161,20 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
     return multiples(steps, fraction(options[offset]));
 }
 
+/// The steps and the first point, as high and low halves of fractions of 128 bits.
+std::vector<Constants> constants(const Plan& plan, const Values& options, const RunContext&) {
+    const auto put = [](Constants& to, Wide x) {
+        to.numbers.push_back(static_cast<std::uint64_t>(x >> 63));
+        to.numbers.push_back(static_cast<std::uint64_t>(x << 1));
+    };
+    Constants steps{"steps", {}};
+    Constants begin{"begin", {}};
+    const auto all = steps_of(options[alpha], plan.dimension);
+    for (std::size_t k = 0; k < plan.dimension; ++k) put(steps, all[k]);
+    put(begin, fraction(options[offset]));
+    return {steps, begin};
+}
+
 /// Returns a note if all steps are multiples of a power of 1/2, because points then repeat.
 std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
                                const Values& options) {
@@ -186,7 +200,8 @@ Generator unit() {
             .aliases = {"additive-recurrence", "r2", "rd", "weyl"},
             .plan = plan,
             .sequence = make,
-            .notes = notes};
+            .notes = notes,
+            .constants = constants};
 }
 
 }  // namespace stipple::generators::kronecker

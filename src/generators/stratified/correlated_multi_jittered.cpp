@@ -60,7 +60,8 @@ Generator unit() {
             .options = Schema(shape_option, centered_option, order_option),
             .aliases = {"cmj"},
             .plan = plan_jitter_grid,
-            .sequence = make};
+            .sequence = make,
+            .constants = column_constant};
 }
 
 }  // namespace stipple::generators::correlated_multi_jittered

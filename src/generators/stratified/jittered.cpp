@@ -93,11 +93,23 @@ Plan plan(const Request& request, const Values& options) {
     return plan_of_cubes(request, "jittered");
 }
 
+/// Number of cells along each axis; empty for rows of cells in the plane.
+std::vector<std::uint64_t> grid_of(const Plan& plan, const Values& options) {
+    if (plan.dimension == 2 && !options.given(shape)) return {};
+    return sides_of(plan, options[shape], "jittered");
+}
+
+/// The number of rows, or the numbers of cells along the axes.
+std::vector<Constants> constants(const Plan& plan, const Values& options, const RunContext&) {
+    const auto sides = grid_of(plan, options);
+    if (sides.empty()) return {{"rows", {rounded_root(plan.count)}, true}};
+    return {{"sides", sides, true}};
+}
+
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     const bool centered = options[cell] == "center";
-    const bool in_rows = plan.dimension == 2 && !options.given(shape);
-    const auto sides =
-        in_rows ? std::vector<std::uint64_t>() : sides_of(plan, options[shape], "jittered");
+    const auto sides = grid_of(plan, options);
+    const bool in_rows = sides.empty();
     return sequence_of([=, d = plan.dimension, n = plan.count, rng = Rng(plan.seed)](
                            std::uint64_t first, std::span<double> rows) {
         if (!centered) rng.fill(first * d, rows);
@@ -117,7 +129,8 @@ Generator unit() {
             .options = Schema(shape, cell),
             .aliases = {"stratified"},
             .plan = plan,
-            .sequence = make};
+            .sequence = make,
+            .constants = constants};
 }
 
 }  // namespace stipple::generators::jittered

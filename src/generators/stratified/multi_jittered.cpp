@@ -116,7 +116,8 @@ Generator unit() {
             .options = Schema(shape_option, centered_option, order_option),
             .aliases = {"mj"},
             .plan = plan_jitter_grid,
-            .sequence = make};
+            .sequence = make,
+            .constants = column_constant};
 }
 
 }  // namespace stipple::generators::multi_jittered

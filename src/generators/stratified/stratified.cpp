@@ -102,6 +102,13 @@ std::uint64_t jitter_columns(std::uint64_t count, const Values& options) {
     return root;
 }
 
+std::vector<Constants> column_constant(const Plan& plan, const Values& options, const RunContext&) {
+    const std::uint64_t columns = jitter_columns(plan.count, options);
+    std::vector<Constants> found = {{"columns", {columns}, true}};
+    if (plan.count % columns > 0) found.push_back({"rest", {plan.count % columns}, true});
+    return found;
+}
+
 Plan plan_of_shape(const Request& request, const std::vector<std::int64_t>& sides,
                    std::string_view cells) {
     const std::string text = format_value(Value(sides));

@@ -66,6 +66,10 @@ Rng stratified_numbers(const Plan& plan, std::uint64_t stream);
 /// of the count in [sqrt(count / 2), sqrt(count)]; floor(sqrt(count)) if there is no such divisor.
 std::uint64_t jitter_columns(std::uint64_t count, const Values& options);
 
+/// The number of columns, and that of points in the last row if it is not full, for
+/// Generator::constants.
+std::vector<Constants> column_constant(const Plan& plan, const Values& options, const RunContext&);
+
 /// Plan with the product of the sides as count, and their number as dimension.
 /// @param cells name of the cells in messages
 /// @throws Error(usage) if the request contradicts the sides
