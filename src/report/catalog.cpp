@@ -176,7 +176,7 @@ const Kind* units_for(std::string_view verb) {
         }
         return found;
     }();
-    const auto it = by_verb.find(verb);
+    const auto it = by_verb.find(verb == "emit" ? "generate" : verb);
     return it == by_verb.end() ? nullptr : &it->second;
 }
 

@@ -39,9 +39,9 @@ std::set<std::string> names_of_units(bool with_formats) {
 const std::vector<std::vector<std::string>> line = {
     {"stipple"},     {"core"},     {"math"},
     {"media"},       {"io"},       {"generators", "scrambles", "warps", "analyzers"},
-    {"experiments"}, {"pipeline"}, {"report"},
-    {"study"},       {"plot"},     {"page"},
-    {"cli"},         {"python"}};
+    {"experiments"}, {"pipeline"}, {"emit"},
+    {"report"},      {"study"},    {"plot"},
+    {"page"},        {"cli"},      {"python"}};
 
 /// Folders whose subfolders are engines, which do not include each other.
 const std::set<std::string> of_engines = {"generators", "warps", "analyzers", "experiments"};

@@ -113,6 +113,7 @@ Candidates operands_of(Verb verb, const std::string& current) {
     Candidates found;
     switch (verb) {
         case Verb::generate:
+        case Verb::emit:
             return {};
         case Verb::study:
             return in_spec(units_of("generators"), current, true);

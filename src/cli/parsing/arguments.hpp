@@ -29,6 +29,7 @@ enum class Verb : unsigned {
     reproduce = 256,
     help = 512,
     completions = 1024,
+    emit = 2048,
 };
 
 /// Union of sets of verbs.

@@ -190,12 +190,12 @@ const std::vector<Row> rows = {
     {"-n,--count", "COUNTS", "1024", "points in a set: 16,64,256 or 2^4..2^16 or 16..65536*2",
      study, &SweepRequest::counts, 1, most_points},
     {"-n,--count", "N", "1024", "points in a set; 1e6, 2^20 and 64k (= 65536) are accepted",
-     generate, &Sources::count, 1, most_points},
+     generate | emit, &Sources::count, 1, most_points},
     {"-n,--count", "N", "1024", "points of a set of --generate", analyze | plot | report,
      &Sources::count, 1, most_points},
     {"-d,--dimension", "DIMENSIONS", "2", "one or several, written as for -n", study,
      &SweepRequest::dimensions, 1, most_dimensions},
-    {"-d,--dimension", "D", "2", "dimension", generate, &Sources::dimension, 1, most_dimensions},
+    {"-d,--dimension", "D", "2", "dimension", generate | emit, &Sources::dimension, 1, most_dimensions},
     {"-s,--seed", "S", "1", "the first 64-bit seed; 'random' draws one and reports it", study,
      &Request::seed},
     {"-s,--seed", "S", "1", "64-bit seed; 'random' draws one and reports it", generate,
@@ -222,6 +222,8 @@ const std::vector<Row> rows = {
      &Sources::warps},
     {"-w,--warp", "NAME[:OPT=V,...]", "",
      "warp or scramble the points; NAME@I,J takes two coordinates", generate, &Sources::warps},
+    {"-w,--warp", "NAME[:OPT=V,...]", "", "warp the points; NAME@I,J takes two coordinates", emit,
+     &Sources::warps},
     {"-w,--warp", "NAME[:OPT=V,...]", "", "warp or scramble before measuring, in order", study,
      &SweepRequest::warps},
     {"--parameters", "FILE", "",
@@ -254,8 +256,8 @@ const std::vector<Row> rows = {
     {"-o,--output", "FILE", "-",
      "- is standard output; {set} and {seed} in the name make a file for each set", writers,
      &Request::output},
-    {"-o,--output", "FILE", "-", "- is standard output", analyze | list | plot | study | report,
-     &Request::output},
+    {"-o,--output", "FILE", "-", "- is standard output",
+     analyze | list | plot | study | report | emit, &Request::output},
     {"-o,--output", "FILE", "", "also write the reproduced points", reproduce, &Request::output},
     {"-o,--output", "FOLDER", "", "with --man: all manual pages, as files in a folder", help,
      &Request::output},
@@ -277,6 +279,10 @@ const std::vector<Row> rows = {
      study, &StudyRequest::format},
     {"--json", "", "", "short for --format json", analyze | list | report | reproduce, nullptr},
     {"--long", "", "", "with the traits and options of every unit", list, &ListRequest::full},
+    {"--language", "c|glsl|hlsl|python", "c", "language of the code", emit, &EmitRequest::language},
+    {"--name", "NAME", "",
+     "name of the function, with which all other names begin; default: the generator's", emit,
+     &EmitRequest::name},
     {"--man", "", "", "as a manual page, for man", help, &HelpRequest::man},
     {"--check", "[KEY<VALUE]", "",
      "exit with 1 unless this condition holds; also <= > >= == !=; mean[0] picks one of a list; "
@@ -580,6 +586,7 @@ const std::vector<VerbInfo>& verbs() {
         add(Verb::report, "report", filled<ReportRequest>);
         add(Verb::list, "list", filled<ListRequest>);
         add(Verb::reproduce, "reproduce", filled<ReproduceRequest>);
+        add(Verb::emit, "emit", filled<EmitRequest>);
         add(Verb::help, "help", filled<HelpRequest>);
         add(Verb::completions, "completions", filled<CompletionsRequest>);
         return all;

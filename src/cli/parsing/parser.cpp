@@ -254,10 +254,11 @@ Arguments parse_arguments(int argc, const char* const* argv) {
             words.erase(word);
         }
     }
-    const bool takes_inputs = kind == nullptr || (unit != nullptr && verb != Verb::generate);
+    const bool makes = verb == Verb::generate || verb == Verb::emit;
+    const bool takes_inputs = kind == nullptr || (unit != nullptr && !makes);
     const auto rest = take_words(std::move(words), own, takes_inputs, arguments);
     if (verb == Verb::analyze && !arguments.help) refuse_second_unit(arguments, *kind);
-    if (verb == Verb::generate && inputs.size() > 1)
+    if (makes && inputs.size() > 1)
         fail(ErrorKind::usage, "unexpected argument '{}'", inputs[1]);
     if (!inputs.empty())
         arguments.inputs.insert(arguments.inputs.end(), inputs.begin() + 1, inputs.end());

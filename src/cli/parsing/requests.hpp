@@ -14,6 +14,7 @@
 #include "analyzers/analyzer.hpp"
 #include "cli/parsing/arguments.hpp"
 #include "core/spec.hpp"
+#include "emit/emit.hpp"
 #include "io/format.hpp"
 #include "pipeline/generated.hpp"
 #include "report/table_line.hpp"
@@ -182,6 +183,13 @@ struct StudyRequest : Request, SweepRequest, SummaryOptions {
 struct ReproduceRequest : Request {
     bool json = false;
     std::vector<std::string> files = {};  ///< the files of --input
+
+    int perform(Session& session) const override;
+};
+
+struct EmitRequest : Sources {
+    emit::Language language = emit::Language::c;
+    std::string name = {};
 
     int perform(Session& session) const override;
 };

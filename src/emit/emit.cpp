@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: MIT
+#include "emit/emit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+#include <vector>
+
+#include "core/bytes/raw_numbers.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "emit/template.hpp"
+#include "pipeline/units.hpp"
+
+namespace stipple::emit {
+
+const char* library_c();
+const char* library_python();
+const char* library_glsl();
+
+namespace {
+
+constexpr std::size_t most_dimensions = 16;
+constexpr std::uint64_t words_end = std::uint64_t{1} << 32;
+constexpr std::size_t columns = 92;  // of lists and of text in comments
+
+bool is_shader(Language language) {
+    return language == Language::glsl || language == Language::hlsl;
+}
+
+std::string wrapped(const std::vector<std::string>& items, std::string_view separator) {
+    std::string text;
+    std::size_t line = 0;
+    for (const std::string& item : items) {
+        const bool begins = text.empty() || line + item.size() > columns;
+        if (begins && !text.empty()) {
+            text.erase(text.find_last_not_of(' ') + 1);
+            text += '\n';
+        }
+        line = (begins ? 0 : line) + item.size() + separator.size();
+        text += item;
+        text += separator;
+    }
+    text.erase(text.find_last_not_of(", ") + 1);
+    return text;
+}
+
+std::string wrapped_text(std::string_view text) {
+    std::vector<std::string> items;
+    for (const auto word : split(text, ' ')) items.emplace_back(word);
+    return wrapped(items, " ");
+}
+
+/// Adds a list of integers as a text: KEY, and its length as KEY.size. A list of 64-bit numbers is
+/// also KEY.words, for numbers that fit.
+void add_list(Words& words, const Constants& list, Language language) {
+    const bool hex = std::ranges::any_of(list.numbers, [](std::uint64_t x) { return x >> 31; });
+    const auto word = [&](std::uint64_t x) {
+        const char* suffix = language == Language::python ? "" : "u";
+        return hex ? fmt::format("{:#x}{}", x, suffix) : fmt::format("{}{}", x, suffix);
+    };
+    std::vector<std::string> numbers;
+    std::vector<std::string> pairs;
+    for (const std::uint64_t x : list.numbers) {
+        numbers.push_back(word(x));
+        pairs.push_back(fmt::format("uvec2({}, {})", word(x & 0xffffffff), word(x >> 32)));
+    }
+    const bool in_pairs = is_shader(language) && !list.words;
+    words[list.name] = wrapped(in_pairs ? pairs : numbers, ", ");
+    words[list.name + ".words"] = wrapped(numbers, ", ");
+    words[list.name + ".size"] = std::to_string(numbers.size());
+}
+
+/// Adds the values of options, and the numbers of lists also one by one, as KEY.0, KEY.1, ...
+void add_options(Words& words, const Schema& schema, const Values& values) {
+    for (const Option& option : schema.options()) {
+        const auto& item = values.find(option.name);
+        if (option.optional && !item.given) continue;
+        std::string text = format_value(item.value);
+        words[option.name] = words[option.name + ".text"] = text;
+        if (option.type != "numbers" && option.type != "points") continue;
+        std::ranges::replace(text, ' ', ',');
+        std::vector<std::string> numbers;
+        for (const auto number : split(text, ',')) {
+            words[fmt::format("{}.{}", option.name, numbers.size())] = number;
+            numbers.emplace_back(number);
+        }
+        words[option.name + ".size"] = std::to_string(numbers.size());
+        if (option.type == "points") words[option.name] = wrapped(numbers, ", ");
+    }
+}
+
+template <class Unit>
+std::string names_in(const Template& code, const std::vector<Unit>& units) {
+    std::vector<std::string> names;
+    for (const Unit& unit : units)
+        if (code.has(unit.name)) names.push_back(unit.name);
+    return join(names, ", ");
+}
+
+/// Adds the part of a unit, and refuses options that it does not use.
+template <class Unit>
+void add_unit(Template& code, const Unit& unit, const std::vector<Unit>& all, const Values& options,
+              const Words& words) {
+    if (!code.has(unit.name))
+        fail_with_hint(ErrorKind::usage, "these can be: " + names_in(code, all),
+                       "emit: {} cannot be emitted", unit.name);
+    code.add(unit.name, words);
+    for (const auto& item : options.items())
+        if (item.given && !code.used(item.name))
+            fail(ErrorKind::usage, "--{}: cannot be emitted for {}", item.name, unit.name);
+}
+
+/// Two points of each of three seeds, as a comment.
+std::string examples(const GeneratedSets& sets, Language language, const RunContext& run) {
+    std::string text;
+    const std::uint64_t count = std::min<std::uint64_t>(2, sets.plan().count);
+    for (std::uint64_t set = 0; set < sets.different_sets(); ++set) {
+        std::vector<double> rows(count * sets.dimension());
+        sets.stream(set, run, 0, count)(rows);
+        for (std::uint64_t i = 0; i < count; ++i) {
+            std::vector<std::string> line = {fmt::format("point {}:", i)};
+            if (sets.different_sets() > 1)
+                line.insert(line.begin(), fmt::format("seed {},", set + 1));
+            for (std::size_t k = 0; k < sets.dimension(); ++k) {
+                const double x = rows[i * sets.dimension() + k];
+                line.push_back(is_shader(language) ? fmt::format("{}", to_single(x))
+                                                   : format_number(x));
+            }
+            text += wrapped(line, " ") + "\n";
+        }
+    }
+    text.pop_back();
+    return text;
+}
+
+/// Statements that set a point's coordinates.
+class Statements {
+  public:
+    Statements(Language language, std::string name, std::size_t dimension)
+        : language_(language), name_(std::move(name)) {
+        for (std::size_t k = 0; k < dimension; ++k)
+            row_.push_back(
+                fmt::format("{}(index, {}{}, seed)", name_, k, is_shader(language) ? "u" : ""));
+    }
+
+    /// Replaces two coordinates by the image of a warp.
+    void warp(const std::string& function, std::vector<std::size_t> coordinates,
+              std::size_t gives) {
+        if (coordinates.empty()) coordinates = {0, 1};
+        const std::size_t a = coordinates[0];
+        const std::size_t b = coordinates[1];
+        const std::string image = fmt::format("image{}", ++images_);
+        const std::string arguments = fmt::format("{}, {}", row_[a], row_[b]);
+        if (language_ == Language::c)
+            add(fmt::format("double {}[{}];\n{}({}, {})", image, gives, function, arguments,
+                            image));
+        else if (language_ == Language::python)
+            add(fmt::format("{} = {}({})", image, function, arguments));
+        else
+            add(fmt::format("vec{} {} = {}({})", gives, image, function, arguments));
+        std::vector<std::string> numbers;
+        for (std::size_t j = 0; j < gives; ++j) numbers.push_back(fmt::format("{}[{}]", image, j));
+        if (gives == 2) {
+            row_[a] = numbers[0];
+            row_[b] = numbers[1];
+            return;
+        }
+        // As WarpChain places them: side by side, where the first of the coordinates was.
+        row_.erase(row_.begin() + static_cast<std::ptrdiff_t>(std::max(a, b)));
+        row_.erase(row_.begin() + static_cast<std::ptrdiff_t>(std::min(a, b)));
+        row_.insert(row_.begin() + static_cast<std::ptrdiff_t>(a > b ? a - 1 : a), numbers.begin(),
+                    numbers.end());
+    }
+
+    [[nodiscard]] std::string text() {
+        for (std::size_t k = 0; k < row_.size(); ++k)
+            add(fmt::format("{}[{}] = {}", is_shader(language_) ? "p" : "point", k, row_[k]));
+        text_.pop_back();
+        return text_;
+    }
+
+  private:
+    void add(const std::string& statement) {
+        text_ += statement + (language_ == Language::python ? "\n" : ";\n");
+    }
+
+    Language language_;
+    std::string name_;
+    std::vector<std::string> row_;  ///< expression of each coordinate
+    std::string text_;
+    std::size_t images_ = 0;
+};
+
+/// Adds the functions of the warps, and one of whole points.
+void add_warps(Template& code, const SetsToMake& job, const GeneratedSets& sets, Language language,
+               const std::string& name, const RunContext& run) {
+    Statements statements(language, name, sets.plan().dimension);
+    for (const Spec& spec : job.warps) {
+        if (scramble_named(spec.name) != nullptr)
+            fail_with_hint(ErrorKind::usage, "--scramble of some generators can be",
+                           "emit: the scramble {} cannot be emitted", spec.name);
+        const Warp& warp = find_warp(spec.name);
+        const Values values = spec.values(warp.options);
+        const std::size_t gives = warp.make(values, 2, run)->domain()->dimension();
+        std::string function = fmt::format("{}_{}", name, warp.name);
+        while (code.text().find(function + "(") != std::string::npos) function += "_";
+        Words words = {{"name", warp.name},
+                       {"function", function},
+                       {"dims", std::to_string(gives)},
+                       {"summary", warp.summary}};
+        add_options(words, warp.options, values);
+        add_unit(code, warp, warps::all(), values, words);
+        statements.warp(function, spec.coordinates, gives);
+    }
+    code.add("point",
+             {{"out", std::to_string(sets.dimension())}, {"statements", statements.text()}});
+}
+
+/// GLSL in the words of HLSL.
+std::string to_hlsl(std::string text) {
+    for (const auto& [glsl, hlsl] : {std::pair{"uvec2", "uint2"},
+                                     {"vec2", "float2"},
+                                     {"vec3", "float3"},
+                                     {"uintBitsToFloat", "asfloat"},
+                                     {"findMSB", "firstbithigh"}})
+        replace_all(text, glsl, hlsl);
+    std::string out;
+    for (const auto line : split(std::string_view(text).substr(0, text.size() - 1), '\n')) {
+        const auto begin = std::min(line.find_first_not_of(' '), line.size());
+        if (line.substr(begin) == ");")
+            out += fmt::format("{}}};\n", line.substr(0, begin));
+        else if (line.substr(begin).starts_with("const ") && line.ends_with("]("))
+            out += fmt::format("{}static {}= {{\n", line.substr(0, begin),
+                               line.substr(begin, line.find("= ") - begin));
+        else
+            out += fmt::format("{}\n", line);
+    }
+    return out;
+}
+
+/// Checks the name of a function, and makes one of a generator's name.
+std::string function_name(std::string name, const std::string& generator) {
+    if (name.empty()) {
+        name = generator;
+        std::ranges::replace(name, '-', '_');
+    }
+    const bool valid = std::ranges::all_of(
+        name, [](unsigned char c) { return c < 128 && (std::isalnum(c) != 0 || c == '_'); });
+    if (!valid || std::isdigit(static_cast<unsigned char>(name[0])) != 0)
+        fail(ErrorKind::usage, "--name: '{}' is not a name of letters, digits and _", name);
+    return name;
+}
+
+/// A command for a comment, which it must not end.
+std::string as_comment(std::string text) {
+    for (const char* end : {"*/", "\"\"\"", "\\"}) replace_all(text, end, "?");
+    return wrapped_text(text);
+}
+
+/// Words for the generator's part and the head of the file.
+Words words_of(const SetsToMake& job, const Plan& plan, Language language, const RunContext& run) {
+    const Generator& generator = *job.generator;
+    constexpr const char* names[] = {"C", "GLSL", "HLSL", "Python"};
+    Words words = {{"language", names[static_cast<std::size_t>(language)]},
+                   {"version", STIPPLE_VERSION},
+                   {"command", as_comment(job.command)},
+                   {"title", wrapped_text(generator.summary + ".")},
+                   {"source", wrapped_text(generator.source)},
+                   {"count", std::to_string(plan.count)},
+                   {"dimension", std::to_string(plan.dimension)},
+                   {"last", std::to_string(plan.dimension - 1)}};
+    add_options(words, generator.options, job.options);
+    std::uint64_t end = generator.traits.prefix ? generator.traits.max_index : plan.count;
+    if (generator.bases) {
+        Constants bases{"bases", {}, true};
+        for (const std::uint32_t base : generator.bases(plan, job.options))
+            bases.numbers.push_back(base);
+        const std::uint64_t largest = std::ranges::max(bases.numbers);
+        words["largest_base"] = std::to_string(largest);
+        end = std::min(end, (std::uint64_t{1} << 62) / largest);  // reversed digits fit 62 bits
+        add_list(words, bases, language);
+    }
+    words["end"] = std::to_string(end);
+    if (generator.constants)
+        for (const Constants& list : generator.constants(plan, job.options, run))
+            add_list(words, list, language);
+    return words;
+}
+
+}  // namespace
+
+std::string emitted(SetsToMake job, Language language, std::string name, const RunContext& run) {
+    const Generator& generator = *job.generator;
+    RunContext quiet = run;
+    quiet.warn = nullptr;
+    name = function_name(std::move(name), generator.name);
+    if (generator.traits.prefix) job.request.count = 2;
+    job.request.seed = 1;
+    job.sets = 3;
+    const Plan plan = plan_for(generator, job.request, job.options);
+    if (plan.dimension > most_dimensions)
+        fail(ErrorKind::usage, "--dimension: {} is outside [1, {}], the range of emitted code",
+             plan.dimension, most_dimensions);
+    if (is_shader(language) && plan.count >= words_end)
+        fail(ErrorKind::usage, "--count: {} is beyond the 32 bits of an index in GLSL and HLSL",
+             plan.count);
+    const char* const libraries[] = {library_c(), library_glsl(), library_glsl(), library_python()};
+    Template code(libraries[static_cast<std::size_t>(language)], name);
+    if (language == Language::python) code.gap = "\n\n";
+    Words words = words_of(job, plan, language, quiet);
+    add_unit(code, generator, generators::all(), job.options, words);
+    const GeneratedSets sets(job, quiet);
+    if (!job.warps.empty()) {
+        words["warped"] = "";
+        add_warps(code, job, sets, language, name, quiet);
+    }
+    if (code.text().find(name + "_stratum(") != std::string::npos) words["rare"] = "";
+    words["points"] = examples(sets, language, quiet);
+    words["parts"] = code.text().substr(0, code.text().size() - 1);
+    const std::string file = code.filled("file", words);
+    return language == Language::hlsl ? to_hlsl(file) : file;
+}
+
+}  // namespace stipple::emit
