@@ -131,7 +131,7 @@ constexpr std::size_t arrival_batch(std::size_t dimension) {
 /// A list among the results that is drawn as a curve.
 struct CurveKey {
     std::string_view key;
-    std::string_view over;  ///< key of the list of its abscissas
+    std::string_view over;  ///< key of the list of its abscissas; empty: pairs of coordinates
     /// Values for independent points: a number, or the key of a list. Empty: unknown.
     std::string_view reference = {};
     std::string_view title = {};  ///< title of its axis; empty: derived from the key

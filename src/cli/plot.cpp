@@ -29,9 +29,10 @@
 #include "pipeline/generated.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/units.hpp"
-#include "plot/drawing/sheet.hpp"
 #include "plot/drawing/ticks.hpp"
+#include "plot/figure.hpp"
 #include "plot/local_discrepancy.hpp"
+#include "plot/pair_table.hpp"
 #include "plot/points_picture.hpp"
 #include "plot/report_charts.hpp"
 #include "plot/spectral_table.hpp"
@@ -40,15 +41,13 @@
 #include "report/average.hpp"
 #include "report/document.hpp"
 #include "study/study_file.hpp"
+#include "study/sweep.hpp"
 
 namespace stipple::cli {
 namespace {
 
 constexpr std::size_t most_overlaid = 7;  ///< limit for sets in one frame: one per colour
 constexpr std::size_t most_frames = 12;   ///< limit for frames on one sheet
-
-/// Extra width of the last frame in a row, for the colour bar.
-constexpr double room_of_bar = plot::colour_bar_room - plot::picture_margin / 2;
 
 Medium medium_of(std::optional<Medium> named, const std::string& path) {
     const bool terminal = is_terminal(path);
@@ -76,6 +75,7 @@ struct Loaded {
     std::string title;                  ///< made from the provenance or the source
     std::string typed;                  ///< command or spec that made it; empty if unknown
     std::size_t left_out = 0;           ///< number of rows with missing numbers
+    std::vector<bool> log = {};         ///< whether each coordinate is a parameter on a log scale
 };
 
 /// Title for a picture of points: "halton", "sobol, disk"; if the generator is unknown, the file's
@@ -149,20 +149,25 @@ class Plot {
     int go() {
         for (const std::string& input : input_names(request_)) read(input);
         add_generated();
-        if (!reports_.empty() + !sets_.empty() + !means_.empty() > 1)
-            fail(ErrorKind::input,
-                 "one picture can show points, reports or a study, but not several of these");
+        if (several_kinds())
+            refuse_options(request_, "labels,axes,set", "applies to inputs of a single kind");
         pick_set();
         rename_sources();
-        const std::string bytes = !means_.empty()    ? picture_of_study()
-                                  : reports_.empty() ? picture_of_points()
-                                                     : picture_of_reports();
+        if (!sets_.empty()) add_points();
+        if (!reports_.empty()) add_reports();
+        if (!means_.empty()) add_study();
+        const std::string bytes = picture();
         session_.run().check_stop();
         write_text(path_, bytes);
         return 0;
     }
 
   private:
+    /// Whether points, reports and studies share the sheet.
+    [[nodiscard]] bool several_kinds() const {
+        return !reports_.empty() + !sets_.empty() + !means_.empty() > 1;
+    }
+
     void take_style() {
         style_.theme = request_.dark ? &plot::dark_theme : &plot::light_theme;
         style_.title = request_.title;
@@ -254,9 +259,13 @@ class Plot {
     /// the file's name.
     void add_study(std::vector<MeanRow> means, const std::string& input) {
         if (means.empty()) fail(ErrorKind::input, "{}: the study has no rows", input);
-        if (input_names(request_).size() > 1)
-            for (MeanRow& row : means)
-                row.generator = fmt::format("{}: {}", io::source_name(input), row.generator);
+        const auto prefix = [](std::vector<MeanRow>& rows, const std::string& from) {
+            for (MeanRow& row : rows)
+                row.generator = fmt::format("{}: {}", io::source_name(from), row.generator);
+        };
+        if (++studies_ == 2) prefix(means_, first_study_);
+        if (studies_ == 1) first_study_ = input;
+        if (studies_ > 1) prefix(means, input);
         std::ranges::move(means, std::back_inserter(means_));
     }
 
@@ -302,10 +311,12 @@ class Plot {
     }
 
     void rename_columns(Loaded& set) const {
-        if (axes_.empty()) return;
-        if (charted_ != nullptr || chart_ == "distances") return;
         Provenance& meta = set.points.provenance;
         const auto before = coordinate_names(set.points.dimension(), meta);
+        const auto logs = page::log_parameters(set.points.domain->spec());
+        for (const std::string& name : before)
+            set.log.push_back(std::ranges::find(logs, name) != logs.end());
+        if (axes_.empty() || charted_ != nullptr || chart_ == "distances") return;
         if (axes_.size() != before.size())
             fail(ErrorKind::usage, "--axes: {} names for points of {} coordinates", axes_.size(),
                  before.size());
@@ -357,65 +368,134 @@ class Plot {
 
     // ---------------------------------------------------------------- pictures
 
-    std::string picture_of_study() {
-        refuse_options(request_, "chart,set", "does not apply to the table of a study");
-        const plot::StudyChart found = plot::study_chart(means_, request_.key.value_or(""));
+    void add_study() {
+        if (!several_kinds())
+            refuse_options(request_, "chart,set", "does not apply to the table of a study");
+        plot::StudyChart found = plot::study_chart(means_, request_.key.value_or(""));
         if (!found.left_out.empty())
             session_.warn(fmt::format("{} results are drawn; --key picks one: {}",
                                       found.chart.panels.size(), join(found.left_out, "; ")));
-        plot::Chart chart = found.chart;
-        rename_axes(chart);
-        return drawn(chart);
+        add(std::move(found.chart));
     }
 
-    std::string picture_of_reports() {
-        if (!chart_.empty())
+    /// Adds a chart for the reports of each analyzer.
+    void add_reports() {
+        if (!chart_.empty() && sets_.empty())
             fail(ErrorKind::usage, "--chart applies to points only; omit it for a report of {}",
                  reports_[0].analyzer);
-        plot::Chart chart = plot::chart_of(reports_, request_.key.value_or(""));
-        rename(chart);
-        rename_axes(chart);
-        return drawn(chart);
+        while (!reports_.empty()) {
+            const std::string analyzer = reports_[0].analyzer;
+            const auto others = std::ranges::stable_partition(
+                reports_, [&](const Measurement& m) { return m.analyzer == analyzer; });
+            const std::span own(reports_.begin(), others.begin());
+            if (!add_pair_tables(own)) {
+                plot::Chart chart = plot::chart_of(own, request_.key.value_or(""));
+                rename(chart);
+                add(std::move(chart));
+            }
+            reports_.erase(reports_.begin(), others.begin());
+        }
     }
 
-    std::string picture_of_points() {
-        if (request_.key)
-            fail(ErrorKind::usage, "--key applies to reports and studies; these are points");
-        if (charted_ != nullptr && grid_title_.empty()) {
-            plot::Chart chart = plot::chart_of(analyzed());
-            rename_axes(chart);
-            return drawn(chart);
+    /// Adds a heat map for each report of pairs of coordinates, with one colour scale for all;
+    /// false if --key names something else, or a report has no such numbers.
+    bool add_pair_tables(std::span<const Measurement> reports) {
+        std::vector<plot::PairTable> tables;
+        double largest = 0;
+        for (const Measurement& m : reports) {
+            auto table = plot::pair_table(m);
+            if (!table || (request_.key && !names_result(table->key, *request_.key))) return false;
+            largest = std::max(largest, table->largest());
+            tables.push_back(*std::move(table));
         }
+        if (!labels_.empty() && labels_.size() != tables.size())
+            refuse_labels(fmt::format("of the {} reports", tables.size()));
+        for (std::size_t i = 0; i < tables.size(); ++i) {
+            plot::PairTable& table = tables[i];
+            if (!labels_.empty())
+                table.title = labels_[i];
+            else if (tables.size() > 1 && table.source != "-")
+                table.title = table.source;
+            const auto draw = [=](const plot::PictureStyle& style, bool last_in_row) {
+                return plot::draw_pair_table(table, largest, last_in_row, style);
+            };
+            const auto write = [=](const plot::TextRoom&) {
+                return plot::pair_table_as_text(table, largest);
+            };
+            frames_.push_back({.title = table.title, .draw = draw, .write = write, .bar = true});
+        }
+        return true;
+    }
+
+    void add(plot::Chart chart) {
+        rename_axes(chart);
+        const auto draw = [chart](const plot::PictureStyle& style, bool) {
+            return plot::draw_chart(chart, style);
+        };
+        const auto write = [this, chart](const plot::TextRoom& room) {
+            return plot::chart_as_text(chart, style_, room);
+        };
+        frames_.push_back(
+            {.title = chart.title, .draw = draw, .write = write, .panels = chart.panels.size()});
+    }
+
+    void add_points() {
+        if (request_.key && !several_kinds())
+            fail(ErrorKind::usage, "--key applies to reports and studies; these are points");
+        if (charted_ != nullptr && grid_title_.empty()) return add(plot::chart_of(analyzed()));
         if (charted_ != nullptr || chart_.empty())
             if (auto found = saved_table()) {
                 if (charted_ != nullptr)
                     found->differences = find_result(*charted_, pixel_key) != nullptr;
-                return saved(*found);
+                return add_saved(*std::move(found));
             }
-        if (charted_ != nullptr) return spectrum();
-        if (chart_ == "local-discrepancy") return local_discrepancies();
+        if (charted_ != nullptr) return add_tables();
+        if (chart_ == "local-discrepancy") return add_local_discrepancies();
         const bool frames = has_frames();
         if (!frames) require_one_dimension();
         keep_few_sets(frames ? most_frames : most_overlaid);
         for (const Loaded& set : sets_)
             if (chart_ == "pairs" && set.points.dimension() < 2)
                 fail(ErrorKind::input, "--chart: points of one coordinate have no pairs of them");
-        if (chart_ == "distances") return distances();
-        if (chart_ != "histogram") refuse_scales("points");
-        if (frames) return sheet_of_points();
-        plot::PointsPicture picture = points_picture();
-        add_overlays(picture, sets_[0]);
-        if (chart_ == "histogram") return drawn(plot::histogram_chart(picture));
-        if (medium_ == Medium::text) return plot::points_as_text(picture, room_);
-        return finished(plot::draw_points(picture, style_, session_.run()));
+        if (chart_ == "distances") return add_distances();
+        if (chart_ != "histogram" && sets_[0].points.dimension() != 2) refuse_scales("such points");
+        for (std::size_t i = 0; i < (frames ? sets_.size() : 1); ++i) {
+            plot::PointsPicture picture = points_picture();
+            if (frames) show_one(picture, i);
+            add_overlays(picture, sets_[i]);
+            if (chart_ == "histogram")
+                add(plot::histogram_chart(picture));
+            else
+                add(picture);
+        }
+    }
+
+    void add(const plot::PointsPicture& picture) {
+        const auto draw = [this, picture](const plot::PictureStyle& style, bool) {
+            return plot::draw_points(picture, style, session_.run());
+        };
+        const auto write = [picture](const plot::TextRoom& room) {
+            return plot::points_as_text(picture, room);
+        };
+        frames_.push_back({.title = picture.title, .draw = draw, .write = write});
+    }
+
+    /// Restricts a picture of all sets to one of them.
+    void show_one(plot::PointsPicture& picture, std::size_t i) const {
+        picture.sets = {picture.sets[i]};
+        picture.title = sets_[i].title + number_of(sets_[i]);
+        picture.names = {picture.title};
+        picture.subtitle = subtitle_of(sets_[i]);
     }
 
     /// Adds the overlays of --draw to the picture of one set.
     void add_overlays(plot::PointsPicture& picture, const Loaded& set) {
         if (request_.draw.empty()) return;
-        if (set.points.dimension() != 2 || picture.sets.size() > 1 || medium_ == Medium::text)
+        if (set.points.dimension() != 2 || picture.sets.size() > 1 || medium_ == Medium::text ||
+            std::ranges::find(picture.log, true) != picture.log.end())
             fail(ErrorKind::usage,
-                 "--draw applies to one set of points of the plane per frame, not to text");
+                 "--draw applies to one set of points of the plane per frame, not to text or "
+                 "logarithmic axes");
         for (const std::string& word : request_.draw) {
             if (word == "cells") {
                 picture.cells = true;
@@ -455,98 +535,19 @@ class Plot {
         }
     }
 
-    /// Draws each set in a frame of its own.
-    std::string sheet_of_points() {
-        const auto frame_of = [this](std::size_t i) {
-            plot::PointsPicture picture = points_picture();
-            picture.sets = {picture.sets[i]};
-            picture.title = sets_[i].title + number_of(sets_[i]);
-            picture.names = {picture.title};
-            if (untitled()) picture.title.clear();
-            picture.subtitle = subtitle_of(sets_[i]);
-            add_overlays(picture, sets_[i]);
-            return picture;
-        };
-        if (medium_ == Medium::text)
-            return in_letters(sets_.size(), [&](std::size_t i, const plot::TextRoom& room) {
-                return plot::points_as_text(frame_of(i), room);
-            });
-        return on_sheet(sets_.size(), 0, [&](std::size_t i, plot::PictureStyle style, bool) {
-            const bool histogram = sets_[i].points.dimension() == 1;
-            if (histogram && style.height <= 0) style.height = style.width;
-            return plot::draw_points(frame_of(i), style, session_.run());
-        });
-    }
-
-    using DrawPart =
-        std::function<plot::Drawing(std::size_t part, const plot::PictureStyle&, bool last_in_row)>;
-    using WritePart = std::function<std::string(std::size_t part, const plot::TextRoom&)>;
-
-    /// Arranges parts in rows and columns below the text of --title.
-    /// @param more additional width of the last part in each row
-    std::string on_sheet(std::size_t parts, double more, const DrawPart& draw) {
-        const std::size_t columns = columns_of(parts);
-        const double usual = columns <= 2 ? 400 : columns == 3 ? 330 : 280;
-        const auto across = static_cast<double>(columns);
-        const double rows = std::ceil(static_cast<double>(parts) / across);
-        fit_to(usual * across + more, usual * rows);
-        auto [drawing, top] = plot::titled_drawing("", "", style_, usual * across + more);
-        if (style_.title.value_or("").empty()) top = 0;
-        const double width = std::floor((drawing.width - more) / across);
-        require_room(across, width, more, rows, top);
-        std::vector<plot::Drawing> drawn;
-        for (std::size_t i = 0; i < parts; ++i) {
-            const bool last = i + 1 == parts || (i + 1) % columns == 0;
-            plot::PictureStyle style = style_;
-            if (!untitled()) style.title.reset();
-            style.width = width + (last ? more : 0);
-            if (style_.height > 0) style.height = std::floor((style_.height - top) / rows);
-            style.rows = rows;
-            drawn.push_back(draw(i, style, last));
-        }
-        plot::add_rows(drawing, std::move(drawn), columns, top);
-        return finished(std::move(drawing));
-    }
-
-    [[nodiscard]] bool untitled() const { return request_.title && request_.title->empty(); }
-
-    [[nodiscard]] std::size_t columns_of(std::size_t parts) const {
-        const bool both = style_.width > 0 && style_.height > 0;
-        return plot::sheet_columns(parts, both ? style_.width / style_.height : 0);
-    }
-
-    /// Chooses the scale for a sheet of this size, in units, so that it fits the requested size in
-    /// pixels.
-    void fit_to(double width, double height) {
-        const double across = style_.width * style_.scale;
-        const double upward = style_.height * style_.scale;
-        if (!(across > 0 || upward > 0)) return;
-        constexpr double least = 0.6;  // smallest scale with legible letters
-        const double scale = std::min(across > 0 ? across / width : HUGE_VAL,
-                                      upward > 0 ? upward / height : HUGE_VAL);
-        style_.scale = std::max(least, scale);
-        style_.width = across / style_.scale;
-        style_.height = upward / style_.scale;
-    }
-
-    /// Checks that frames are large enough for points. @throws Error(usage)
-    void require_room(double columns, double width, double more, double rows, double top) const {
-        constexpr double least_width = 150;
-        constexpr double least_height = 200;
-        plot::require_height(style_, top + rows * least_height);
-        if (width < least_width)
-            fail(ErrorKind::usage,
-                 "--width: {:.0f} leaves no room for {} frames in a row; at least {:.0f} does",
-                 style_.width * style_.scale, columns,
-                 std::ceil((columns * least_width + more) * style_.scale));
-    }
-
-    std::string in_letters(std::size_t parts, const WritePart& write) const {
-        const std::string title = request_.title.value_or("");
-        std::vector<std::string> written;
-        for (std::size_t i = 0; i < parts; ++i)
-            written.push_back(write(i, plot::shared_room(room_, parts)));
-        return (title.empty() ? "" : printable(title) + "\n") + plot::side_by_side(written, room_);
+    std::string picture() {
+        if (request_.letters) style_.letter = 0;
+        if (medium_ == Medium::text) return plot::figure_as_text(frames_, style_, room_);
+        const plot::Drawing drawing = plot::draw_figure(frames_, style_);
+        constexpr double pixel_bytes = 14;  // colours, coverage, and two copies for libpng
+        if (medium_ == Medium::png)
+            session_.run().need_memory(
+                pixel_bytes * drawing.width * drawing.height * style_.scale * style_.scale,
+                "the picture");
+        const plot::PictureNotes notes = notes_of();
+        return medium_ == Medium::svg   ? plot::svg_bytes(drawing, style_.scale, notes)
+               : medium_ == Medium::pdf ? plot::pdf_bytes(drawing, style_.scale, notes)
+                                        : plot::png_bytes_of(drawing, style_.scale, notes);
     }
 
     /// Rejects a logarithmic axis for a picture that cannot have one. @throws Error(usage)
@@ -558,24 +559,6 @@ class Plot {
                                "--chart histogram, distances, radial and pair-correlation have "
                                "axes that can be",
                                "--{}: a picture of {} has no logarithmic axes", name, what);
-    }
-
-    std::string drawn(const plot::Chart& chart) {
-        if (medium_ == Medium::text) return plot::chart_as_text(chart, style_, room_);
-        return finished(plot::draw_chart(chart, style_));
-    }
-
-    std::string finished(plot::Drawing drawing) {
-        plot::fill_height(drawing, style_.height);
-        constexpr double pixel_bytes = 14;  // colours, coverage, and two copies for libpng
-        if (medium_ == Medium::png)
-            session_.run().need_memory(
-                pixel_bytes * drawing.width * drawing.height * style_.scale * style_.scale,
-                "the picture");
-        const plot::PictureNotes notes = notes_of();
-        return medium_ == Medium::svg   ? plot::svg_bytes(drawing, style_.scale, notes)
-               : medium_ == Medium::pdf ? plot::pdf_bytes(drawing, style_.scale, notes)
-                                        : plot::png_bytes_of(drawing, style_.scale, notes);
     }
 
     /// The table of the input, if --grid saved it.
@@ -608,23 +591,40 @@ class Plot {
         return names;
     }
 
-    std::string saved(const plot::SpectralTable& table) {
-        const std::string title = request_.title.value_or(sets_[0].title);
-        if (table.dimension == 1) return drawn(plot::power_chart(table.values, title));
+    void add_saved(const plot::SpectralTable& table) {
+        const std::string& title = sets_[0].title;
+        if (table.dimension == 1) return add(plot::power_chart(table.values, title));
         refuse_scales("a table");
-        const std::string plane = table.dimension == 3 ? "plane fz = 0" : "";
-        return drawn_table(table.values, title, plane,
-                           table.differences ? names_of(std::nullopt) : renamed({}));
+        add_table(table.values, title, table.dimension == 3 ? "plane fz = 0" : "",
+                  table.differences ? names_of(std::nullopt) : renamed({}));
     }
 
-    std::string spectrum() {
+    /// Adds the table of each input; tables share bars for the shades at the ends of rows.
+    void add_tables() {
         refuse_scales("a table");
+        const std::vector<std::size_t> firsts = firsts_of_inputs();
         const std::vector<Measurement> found = analyzed_tables();
-        if (found.size() > 1) return sheet_of_tables(found);
-        const std::string title = request_.title.value_or(
-            fmt::format("{} of {}", grid_title_, table_title(found[0], sets_[0])));
-        return drawn_table(grid_of(found[0]), title, table_subtitle(found[0], sets_[0]),
-                           names_of(found[0]));
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const Loaded& first = sets_[firsts[i]];
+            std::string title = table_title(found[i], first);
+            if (found.size() == 1) title = fmt::format("{} of {}", grid_title_, title);
+            add_table(grid_of(found[i]), title, table_subtitle(found[i], first),
+                      names_of(found[i]));
+            if (found.size() > 1) frames_.back().title = found[i].source;
+        }
+    }
+
+    void add_table(const Grid& table, const std::string& title, const std::string& subtitle,
+                   const plot::TableNames& names) {
+        const auto draw = [=](const plot::PictureStyle& style, bool last_in_row) {
+            plot::TableNames own = names;
+            own.bar = last_in_row;
+            return plot::draw_spectrum(table, title, subtitle, style, own);
+        };
+        const auto write = [=](const plot::TextRoom& room) {
+            return plot::spectrum_as_text(table, room);
+        };
+        frames_.push_back({.title = title, .draw = draw, .write = write, .bar = true});
     }
 
     /// Title and subtitle of a measurement of the set, or of the mean over it and later sets.
@@ -645,30 +645,6 @@ class Plot {
         return pixel ? names_of(pixel) : renamed({});
     }
 
-    /// Draws each table in a frame, with a bar for the shades at the end of each row.
-    std::string sheet_of_tables(const std::vector<Measurement>& found) {
-        const std::vector<std::size_t> firsts = firsts_of_inputs();
-        if (medium_ == Medium::text)
-            return in_letters(found.size(), [&](std::size_t i, const plot::TextRoom& room) {
-                return plot::spectrum_as_text(grid_of(found[i]), found[i].source, room);
-            });
-        return on_sheet(found.size(), room_of_bar,
-                        [&](std::size_t i, const plot::PictureStyle& style, bool last_in_row) {
-                            const Loaded& first = sets_[firsts[i]];
-                            plot::TableNames names = names_of(found[i]);
-                            names.bar = last_in_row;
-                            return plot::draw_spectrum(
-                                grid_of(found[i]), table_title(found[i], first),
-                                table_subtitle(found[i], first), style, names);
-                        });
-    }
-
-    std::string drawn_table(const Grid& table, const std::string& title,
-                            const std::string& subtitle, const plot::TableNames& names) {
-        if (medium_ == Medium::text) return plot::spectrum_as_text(table, title, room_);
-        return finished(plot::draw_spectrum(table, title, subtitle, style_, names));
-    }
-
     /// Measurements with a plane table, one for each input.
     std::vector<Measurement> analyzed_tables() {
         auto found = analyzed();
@@ -686,9 +662,9 @@ class Plot {
         return found;
     }
 
-    /// Draws the local discrepancy of each set in a frame, with one colour scale for all and a bar
-    /// at the end of each row.
-    std::string local_discrepancies() {
+    /// Adds the local discrepancy of each set, with one colour scale for all and bars at the ends
+    /// of rows.
+    void add_local_discrepancies() {
         refuse_options(request_, "overlay,draw", "does not apply to the local discrepancy");
         refuse_scales("a local discrepancy");
         keep_few_sets(most_frames);
@@ -700,37 +676,38 @@ class Plot {
             largest = std::max(largest, worst.back().star());
         }
         const bool single = sets_.size() == 1;
-        const auto title_of = [&](std::size_t i) {
-            if (!single) return sets_[i].title + number_of(sets_[i]);
-            return request_.title.value_or("Local discrepancy of " + sets_[i].title);
-        };
-        const auto write = [&](std::size_t i, const plot::TextRoom& room) {
-            return plot::local_discrepancy_as_text(sets_[i].points, worst[i], title_of(i), largest,
-                                                   room, session_.run());
-        };
-        const auto draw = [&](std::size_t i, const plot::PictureStyle& style, bool last_in_row) {
-            return plot::draw_local_discrepancy(
-                sets_[i].points, worst[i],
-                {.title = title_of(i),
-                 .subtitle = subtitle_of(sets_[i]) + (single ? number_of(sets_[i]) : ""),
-                 .largest = largest,
-                 .bar = last_in_row,
-                 .resolution = medium_ == Medium::png ? style.scale : std::max(style.scale, 2.0)},
-                style, session_.run());
-        };
-        if (medium_ == Medium::text)
-            return single ? write(0, room_) : in_letters(sets_.size(), write);
-        return single ? finished(draw(0, style_, true)) : on_sheet(sets_.size(), room_of_bar, draw);
+        for (std::size_t i = 0; i < sets_.size(); ++i) {
+            const Loaded& set = sets_[i];
+            const std::string title =
+                single ? "Local discrepancy of " + set.title : set.title + number_of(set);
+            const std::string subtitle = subtitle_of(set) + (single ? number_of(set) : "");
+            const auto draw = [=, this, &set, boxes = worst[i]](const plot::PictureStyle& style,
+                                                                bool last_in_row) {
+                return plot::draw_local_discrepancy(
+                    set.points, boxes,
+                    {.title = title,
+                     .subtitle = subtitle,
+                     .largest = largest,
+                     .bar = last_in_row,
+                     .resolution =
+                         medium_ == Medium::png ? style.scale : std::max(style.scale, 2.0)},
+                    style, session_.run());
+            };
+            const auto write = [=, this, &set, boxes = worst[i]](const plot::TextRoom& room) {
+                return plot::local_discrepancy_as_text(set.points, boxes, largest, room,
+                                                       session_.run());
+            };
+            frames_.push_back({.title = title, .draw = draw, .write = write, .bar = true});
+        }
     }
 
-    std::string distances() {
+    void add_distances() {
         std::vector<const PointSet*> sets;
         for (const Loaded& set : sets_) sets.push_back(&set.points);
         plot::Chart chart = plot::distance_chart(sets, names(), session_.run());
         if (!different_titles()) chart.title += " of " + sets_[0].title;
         if (sets_.size() == 1) chart.subtitle = subtitle_of(sets_[0]) + number_of(sets_[0]);
-        rename_axes(chart);
-        return drawn(chart);
+        add(std::move(chart));
     }
 
     /// Measures with default options: one measurement for each input, the mean over its sets.
@@ -814,12 +791,27 @@ class Plot {
         if (chart_ == "points") picture.marking = plot::Marking::disks;
         if (chart_ == "density") picture.marking = plot::Marking::density;
         picture.pairs = chart_ == "pairs";
-        picture.title = request_.title.value_or(sets_[0].title);
-        if (sets_.size() > 1 && different_titles() && !request_.title)
-            picture.title = join(picture.names, ", ");
+        for (std::size_t k = 0; k < d; ++k) picture.log.push_back(is_log(k, picture.sets));
+        picture.title = sets_[0].title;
+        if (sets_.size() > 1 && different_titles()) picture.title = join(picture.names, ", ");
         picture.subtitle = subtitle_of(sets_[0]) + number_of(sets_[0]);
         if (sets_.size() > 1) picture.subtitle.clear();
         return picture;
+    }
+
+    /// Whether a coordinate has a logarithmic axis: by option in the plane, or as a parameter.
+    [[nodiscard]] bool is_log(std::size_t k, std::span<const PointSet* const> sets) const {
+        const bool plane = sets[0]->dimension() == 2 && chart_ != "histogram";
+        const std::optional<bool>& option = k == 0 ? style_.log_x : style_.log_y;
+        const bool given = plane && option.has_value();
+        if (!(given ? *option : sets_[0].log[k])) return false;
+        if (plot::is_positive(sets, k)) return true;
+        if (given)
+            fail(ErrorKind::input,
+                 "--{}-scale: a logarithmic axis cannot show this coordinate, which is not "
+                 "positive everywhere",
+                 k == 0 ? "x" : "y");
+        return false;
     }
 
     [[nodiscard]] bool different_titles() const {
@@ -869,6 +861,9 @@ class Plot {
     std::vector<Loaded> sets_;
     std::vector<Measurement> reports_;
     std::vector<MeanRow> means_;
+    std::size_t studies_ = 0;
+    std::string first_study_;  ///< file of the first study
+    std::vector<plot::Frame> frames_;
     std::uint64_t seed_ = 1;  ///< seed of --generate
 };
 

@@ -88,18 +88,34 @@ std::string joined_by(const Json& file) {
     return items.empty() ? "" : "<ul class=\"constraints\">\n" + items + "</ul>\n";
 }
 
-}  // namespace
-
-bool is_experiment(const std::string& domain) { return domain.starts_with("parameters:"); }
-
-std::string parameter_table(const std::string& domain) {
+/// The parameter file in a domain's spec; null for other domains.
+Json file_of(const std::string& domain) {
     if (!is_experiment(domain)) return {};
     const Spec spec = parse_spec(domain);
     const auto text =
         std::ranges::find(spec.settings, "json", [](const auto& s) { return s.first; });
     if (text == spec.settings.end()) return {};
     const Json file = try_parse_json(text->second);
-    if (!file.is_object() || !file.contains("parameters")) return {};
+    return file.is_object() && file.contains("parameters") ? file : Json();
+}
+
+}  // namespace
+
+bool is_experiment(const std::string& domain) { return domain.starts_with("parameters:"); }
+
+std::vector<std::string> log_parameters(const std::string& domain) {
+    std::vector<std::string> names;
+    const Json file = file_of(domain);
+    for (const Json& parameter : file.is_null() ? Json() : file["parameters"])
+        if (parameter.value("scale", Json()) == "log" ||
+            parameter.value("distribution", Json()) == "log-uniform")
+            names.push_back(words_of(parameter.value("name", Json(""))));
+    return names;
+}
+
+std::string parameter_table(const std::string& domain) {
+    const Json file = file_of(domain);
+    if (file.is_null()) return {};
     std::string rows;
     for (const Json& parameter : file["parameters"]) rows += row_of(parameter);
     return fmt::format(

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <span>
 
-#include "core/error.hpp"
+#include "core/text.hpp"
 #include "plot/drawing/letters.hpp"
 
 namespace stipple::plot {
@@ -373,16 +373,15 @@ struct LegendPlace {
 };
 
 std::vector<LegendPlace> legend_places(const std::vector<LegendEntry>& entries, double width) {
-    constexpr double wider = 1.12;  // allows for wider fonts that replace Helvetica
     std::vector<LegendPlace> places;
     double x = 0;
     double y = 0;
     for (const LegendEntry& entry : entries) {
-        auto lines = wrapped(entry.name, legend_size, (width - swatch - 6) / wider);
+        auto lines = wrapped(entry.name, legend_size, width - swatch - 6);
         if (lines.empty()) lines.emplace_back();
         double widest = 0;
         for (const std::string& line : lines)
-            widest = std::max(widest, wider * text_width(line, legend_size));
+            widest = std::max(widest, room_of({.text = line, .at = {}, .size = legend_size}).width);
         const double wide = swatch + 6 + widest;
         if (x > 0 && x + wide > width) {
             x = 0;
@@ -431,6 +430,33 @@ std::vector<Guide> falling_guides(const Series& series) {
         guides.push_back(std::move(guide));
     }
     return guides;
+}
+
+void name_slope(Series& series) {
+    const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
+    const std::size_t size = series.x.size();
+    if (size < 2 || !std::ranges::all_of(series.y, positive)) return;
+    const auto m = static_cast<double>(size);
+    const auto sum = [&](const auto& term) {
+        double total = 0;
+        for (std::size_t i = 0; i < size; ++i)
+            total += term(std::log(series.x[i]), std::log(series.y[i]));
+        return total;
+    };
+    const double u = sum([](double x, double) { return x; }) / m;
+    const double v = sum([](double, double y) { return y; }) / m;
+    const double spread = sum([&](double x, double) { return (x - u) * (x - u); });
+    if (!(spread > 0)) return;
+    const double slope = sum([&](double x, double y) { return (x - u) * (y - v); }) / spread;
+    const double rest = sum([&](double x, double y) {
+        const double residual = y - v - slope * (x - u);
+        return residual * residual;
+    });
+    const double error = size < 3 ? 0 : std::sqrt(rest / (m - 2) / spread);
+    const bool fine = error < 0.005 && error >= 5e-5;  // needs more than two digits
+    const int digits = fine ? static_cast<int>(-std::floor(std::log10(error))) : 2;
+    const std::string deviation = size < 3 ? "" : " ± " + printed(error, digits);
+    series.name += fmt::format(" (slope {}{})", printed(slope, digits), deviation);
 }
 
 double legend_height(const std::vector<LegendEntry>& entries, double width) {
@@ -483,10 +509,10 @@ SquareDrawing square_drawing(TitledDrawing titled, const std::vector<LegendEntry
     const double below = Panel::room_below(x, 200) + picture_margin;
     const double beside = bar ? colour_bar_room : picture_margin / 2;
     const double wide = std::floor(drawing.width - left - beside - picture_margin);
-    require_height(style, top + above + least + below);
     double side = wide;
     if (style.height > 0) side = std::min(side, std::floor(style.height - top - below - above));
     side = std::max(side, least);
+    drawing.width = std::max(drawing.width, left + side + beside + picture_margin);
     drawing.height = std::ceil(top + above + side + below);
     const double aside = std::max(std::floor((wide - side) / 2), 0.0);
     return {.drawing = std::move(drawing),
@@ -503,8 +529,7 @@ TitledDrawing titled_drawing(const std::string& title, const std::string& subtit
     double y = picture_margin;
     const double width = drawing.width - 2 * picture_margin;
     const auto put = [&](const std::string& text, double size, bool bold, Colour colour) {
-        // Bold letters are slightly wider.
-        for (const std::string& line : wrapped(text, bold ? 1.08 * size : size, width)) {
+        for (const std::string& line : wrapped(text, size, width, bold)) {
             drawing.add(Label{.text = line,
                               .at = {picture_margin, y + 0.8 * size},
                               .size = size,
@@ -513,7 +538,7 @@ TitledDrawing titled_drawing(const std::string& title, const std::string& subtit
             y += 1.45 * size;
         }
     };
-    put(first, 15, true, style.theme->ink);
+    put(letter_of(style.letter) + first, 15, true, style.theme->ink);
     const bool untitled = style.title && style.title->empty();
     if (!untitled) put(subtitle, 12, false, style.theme->text);
     return {std::move(drawing), y == picture_margin ? y : y + 5};
@@ -528,12 +553,8 @@ std::pair<Axis, Axis> chart_axes(const Chart& chart, std::size_t panel, const Pi
     return axes;
 }
 
-void require_height(const PictureStyle& style, double needed) {
-    if (style.height > 0 && style.height < needed)
-        fail(ErrorKind::usage,
-             "--height: {:.0f} leaves no room for the picture; at least {:.0f} does",
-             std::ceil(style.height * style.rows * style.scale),
-             std::ceil(needed * style.rows * style.scale));
+std::string letter_of(const std::optional<std::size_t>& letter) {
+    return letter ? fmt::format("({}) ", static_cast<char>('a' + *letter % 26)) : "";
 }
 
 namespace {
@@ -566,9 +587,9 @@ Layout layout_of(const Chart& chart, const PictureStyle& style, double width, do
                 found.below, Panel::room_below(chart_axes(chart, i, style).first, found.width));
         found.gap = panel_gap + (chart.own_x ? found.below : 0);
         found.needed = used + found.below + picture_margin + found.gap * more_panels;
-        found.height = style.height > 0 ? style.height
+        found.height = style.height > 0 ? std::max(style.height, found.needed + least_panels)
                                         : found.needed + first_panel + other_panel * more_panels;
-        found.unit = std::max(found.height - found.needed, least_panels) / shares;
+        found.unit = (found.height - found.needed) / shares;
         for (const ChartPanel& panel : chart.panels)
             found.left = std::max(
                 found.left,
@@ -583,22 +604,31 @@ Layout layout_of(const Chart& chart, const PictureStyle& style, double width, do
 
 Drawing draw_chart(const Chart& chart, const PictureStyle& style, std::vector<Area>* frames) {
     const Theme& theme = *style.theme;
-    auto [drawing, y] = titled_drawing(chart.title, chart.subtitle, style, 720);
+    const bool lettered = style.letter && chart.panels.size() > 1;
+    PictureStyle titles = style;
+    if (lettered) titles.letter.reset();
+    auto [drawing, y] = titled_drawing(chart.title, chart.subtitle, titles, 720);
     const double whole_width = drawing.width - 2 * picture_margin;
-    double used = y;
+    const double letter_row = lettered ? 20 : 0;
+    double used = y + letter_row * static_cast<double>(chart.panels.size());
     std::vector<std::vector<LegendEntry>> legends;
     for (std::size_t i = 0; i < chart.panels.size(); ++i) {
         legends.push_back(legend_of(chart, i, theme));
         used += legend_height(legends.back(), whole_width);
     }
     const Layout layout = layout_of(chart, style, drawing.width, used);
-    require_height(style, layout.needed + least_panels);
     drawing.height = std::ceil(layout.height);
     drawing.width = std::max(drawing.width, layout.left + layout.width + picture_margin + 8);
     for (std::size_t i = 0; i < chart.panels.size(); ++i) {
         const ChartPanel& panel = chart.panels[i];
         draw_legend(drawing, legends[i], {picture_margin, y}, whole_width, theme);
-        y = std::ceil(y + legend_height(legends[i], whole_width));
+        y = std::ceil(y + legend_height(legends[i], whole_width) + letter_row);
+        if (lettered)
+            drawing.add(Label{.text = std::string(trim(letter_of(*style.letter + i))),
+                              .at = {picture_margin, y - 8},
+                              .size = 13,
+                              .colour = theme.ink,
+                              .bold = true});
         auto [across, upward] = chart_axes(chart, i, style);
         across.numbers = chart.own_x || i + 1 == chart.panels.size();
         const Area frame{layout.left, y, layout.width, std::floor(layout.unit * panel.share)};

@@ -19,14 +19,15 @@ namespace stipple::plot {
 constexpr double picture_margin = 14;
 
 /// Style of a picture. Width and height are in drawing units; 0: automatic. Pictures with equal
-/// scales on both axes may be less high than requested.
+/// scales on both axes may be less high than requested. Pictures that need more room are larger.
 struct PictureStyle {
     const Theme* theme = &light_theme;
     double width = 0;
     double height = 0;
-    double scale = 1;  ///< pixels per unit
-    double rows = 1;   ///< rows of pictures that share the height requested by the user
+    double scale = 1;                       ///< pixels per unit
     std::optional<std::string> title = {};  ///< replaces the picture's own title
+    /// Number of the first panel's letter, from 0 for (a); nullopt: panels have no letters.
+    std::optional<std::size_t> letter = {};
     std::optional<bool> log_x = {};
     std::optional<bool> log_y = {};
     bool tight = false;  ///< axes of charts end exactly at the data
@@ -96,11 +97,10 @@ bool needs_legend(const Chart& chart, std::size_t panel);
 /// Left and right end of a series' bar along x, in the category at x.
 std::pair<double, double> bar_edges(const ChartPanel& panel, std::size_t series, double x);
 
-/// Checks the requested height. @throws Error(usage) if the picture needs more
-void require_height(const PictureStyle& style, double needed);
+/// "(a) ", "(b) ", ...; empty without a letter.
+std::string letter_of(const std::optional<std::size_t>& letter);
 
 /// Draws all panels with their legends. @param frames if not null, receives the panels' frames
-/// @throws Error(usage) if the requested height is too small
 Drawing draw_chart(const Chart& chart, const PictureStyle& style,
                    std::vector<Area>* frames = nullptr);
 
@@ -148,6 +148,11 @@ std::string words_of(std::string name);
 /// Guides that decrease as n^(-1/2) and n^(-1), starting slightly above the curve's first positive
 /// value.
 std::vector<Guide> falling_guides(const Series& series);
+
+/// Adds the exponent of n in a power law, fitted to the curve by least squares of the logarithms, to
+/// its name: "halton (slope −0.98 ± 0.02)". The standard error needs three values. Curves with
+/// fewer than two values, or with values that are not positive, have no slope.
+void name_slope(Series& series);
 
 /// Height of a legend wrapped to `width`.
 double legend_height(const std::vector<LegendEntry>& entries, double width);

@@ -51,9 +51,19 @@ bool all_inside(const PointSet& set) {
     return true;
 }
 
+bool is_log(const PointsPicture& picture, std::size_t k) {
+    return k < picture.log.size() && picture.log[k];
+}
+
 /// Enlarges the box by a fraction of its extent on every side.
-void widen(Box& box, double share) {
+void widen(Box& box, double share, const PointsPicture& picture) {
     for (std::size_t k = 0; k < box.dimension(); ++k) {
+        if (is_log(picture, k)) {
+            const double factor = std::pow(box.high[k] / box.low[k], share);
+            box.low[k] /= factor;
+            box.high[k] *= factor;
+            continue;
+        }
         const double more = share * box.extent(k);
         box.low[k] -= more;
         box.high[k] += more;
@@ -174,13 +184,7 @@ class PointMarks {
             ticks.numbers);
     }
 
-    /// Colour for a fraction of the largest count: from the background through the first series'
-    /// colour to the ink.
-    [[nodiscard]] Colour shade(double share) const {
-        const Colour middle = theme_.series[0];
-        return share < 0.6 ? mixed(theme_.background, middle, share / 0.6)
-                           : mixed(middle, theme_.ink, (share - 0.6) / 0.4);
-    }
+    [[nodiscard]] Colour shade(double share) const { return shade_of(theme_, share); }
 
   private:
     static constexpr std::size_t patience = 65536;  ///< points between checks for a stop
@@ -337,8 +341,9 @@ void draw_boxes(Drawing& drawing, const PointsPicture& picture, const Panel& pan
 
 /// Size of the frame for a box. x and y have equal scales, except if the box is very thin. @param
 /// height limit; 0: automatic
-std::pair<double, double> frame_size(const Box& box, double width, double height) {
-    double ratio = std::clamp(picture_ratio(box, 0, 1), 0.12, 3.0);
+std::pair<double, double> frame_size(const PointsPicture& picture, const Box& box, double width,
+                                     double height) {
+    double ratio = std::clamp(picture_ratio(picture, box), 0.12, 3.0);
     if (!(ratio > 0)) ratio = 1;
     double wide = width;
     if (height > 0 && wide * ratio > height) wide = height / ratio;
@@ -499,11 +504,12 @@ Drawing draw_space(const PointsPicture& picture, const PictureStyle& style, cons
     double scale = 0;
     const auto scene_of = [&, &low = low, &high = high] {
         const double below = texts.below() + picture_margin;
-        require_height(style, page.top + 8 + least * upward + below);
         scale = (drawing.width - 2 * (texts.beside() + picture_margin)) / across;
         if (style.height > 0)
             scale = std::min(scale, (style.height - page.top - below - 8) / upward);
         scale = std::max(scale, least);
+        drawing.width =
+            std::max(drawing.width, scale * across + 2 * (texts.beside() + picture_margin));
         drawing.height = std::ceil(page.top + 8 + scale * upward + below);
         const double left = (drawing.width - scale * across) / 2;
         return Scene{box, scale, left - scale * low.right, page.top + 8 + scale * high.up};
@@ -541,7 +547,7 @@ class PairSheet {
           box_(shown_box(picture.sets)),
           names_(shown_names(picture)),
           shown_(std::min(box_.dimension(), picture.most_coordinates)) {
-        if (!frame_is_outline(picture)) widen(box_, 0.03);
+        if (!frame_is_outline(picture)) widen(box_, 0.03, picture);
         const double tall = style.height > 0 ? style.height : page_.width;
         dense_ = plane_ && marks_.as_density(page_.width, tall);
         place_panels(style);
@@ -594,16 +600,17 @@ class PairSheet {
             }
             const double wide = (page_.drawing.width - left_ - right - gaps) / columns;
             const double high =
-                style.height > 0 ? std::floor((style.height - top_ - below - gaps) / columns) : 0;
+                style.height > 0
+                    ? std::max(std::floor((style.height - top_ - below - gaps) / columns), least)
+                    : 0;
             if (plane_) {
-                std::tie(width_, height_) = frame_size(box_, wide, std::max(high, 0.0));
+                std::tie(width_, height_) = frame_size(picture_, box_, wide, high);
                 aside = std::max(std::floor((wide - width_) / 2), 0.0);
             } else {  // coordinates may have different units
                 width_ = std::max(std::floor(wide), least);
                 height_ = high > 0 ? high : width_;
             }
         }
-        require_height(style, top_ + columns * least + gaps + below);
         left_ += aside;
         page_.drawing.height = std::ceil(top_ + columns * height_ + gaps + below);
         page_.drawing.width =
@@ -612,15 +619,10 @@ class PairSheet {
 
     /// Axis of a coordinate; if `edge`, at the sheet's edge, with numbers and name.
     [[nodiscard]] Axis axis(std::size_t k, bool edge) const {
-        Axis axis{.low = box_.low[k],
-                  .high = box_.high[k],
-                  .name = edge ? names_[k] : "",
-                  .numbers = edge,
-                  .tight = !plane_};
-        if (const auto* words = words_in(*picture_.sets[0], k)) {
-            axis.words = *words;
-            axis.first_word = 0;
-        }
+        Axis axis = shown_axis(picture_, box_, k);
+        if (edge) axis.name = names_[k];
+        axis.numbers = edge;
+        axis.tight = !plane_;
         return axis;
     }
 
@@ -686,13 +688,20 @@ ChartPanel words_panel(const PointsPicture& picture, const std::vector<std::stri
 ChartPanel histogram_panel(const PointsPicture& picture, const Box& box, std::size_t k) {
     if (const auto* words = words_in(*picture.sets[0], k)) return words_panel(picture, *words, k);
     ChartPanel panel{.x_name = shown_names(picture)[k], .y_name = "density", .from_zero = true};
+    panel.log_x = is_log(picture, k);
+    if (panel.log_x) panel.y_name += fmt::format(" of ln {}", panel.x_name);
+    const auto scaled = [&](double x) { return panel.log_x ? std::log(x) : x; };
     for (std::size_t s = 0; s < picture.sets.size(); ++s) {
-        const PointSet& set = *picture.sets[s];
-        panel.bars.push_back(
-            histogram_of(coordinate(set, k), box.low[k], box.high[k], bins_of(set.count())));
-        panel.bars.back().name = picture.names[s];
+        std::vector<double> values = coordinate(*picture.sets[s], k);
+        std::ranges::transform(values, values.begin(), scaled);
+        Bars bars =
+            histogram_of(values, scaled(box.low[k]), scaled(box.high[k]), bins_of(values.size()));
+        if (panel.log_x)
+            for (double& edge : bars.edges) edge = std::exp(edge);
+        bars.name = picture.names[s];
+        panel.bars.push_back(std::move(bars));
     }
-    if (frame_is_outline(picture))
+    if (frame_is_outline(picture) && !panel.log_x)
         panel.guides.push_back({.name = "uniform", .y = {1 / box.extent(k)}});
     if (picture.sets.size() == 1 && picture.sets[0]->count() <= 2000)
         panel.rug = coordinate(*picture.sets[0], k);
@@ -734,9 +743,28 @@ std::pair<std::string, std::string> shown_ends(const PointsPicture& picture, con
     return rounded_ends(box.low[k], box.high[k]);
 }
 
-double picture_ratio(const Box& box, std::size_t i, std::size_t j) {
-    const double ratio = box.extent(j) / box.extent(i);
-    return ratio > most_unlike || ratio < 1 / most_unlike ? 1 : ratio;
+Axis shown_axis(const PointsPicture& picture, const Box& box, std::size_t k) {
+    Axis axis{.low = box.low[k], .high = box.high[k], .log = is_log(picture, k)};
+    if (const auto* words = words_in(*picture.sets[0], k)) {
+        axis.words = *words;
+        axis.first_word = 0;
+    }
+    return axis;
+}
+
+double picture_ratio(const PointsPicture& picture, const Box& box) {
+    const double ratio = box.extent(1) / box.extent(0);
+    const bool unlike = ratio > most_unlike || ratio < 1 / most_unlike;
+    return unlike || is_log(picture, 0) || is_log(picture, 1) ? 1 : ratio;
+}
+
+bool is_space(const PointsPicture& picture) {
+    const bool linear = std::ranges::find(picture.log, true) == picture.log.end();
+    return picture.sets[0]->dimension() == 3 && !picture.pairs && linear;
+}
+
+bool is_positive(std::span<const PointSet* const> sets, std::size_t k) {
+    return whole_box(sets).low[k] > 0 && words_in(*sets[0], k) == nullptr;
 }
 
 Projected project(const Box& box, std::span<const double> point) {
@@ -780,13 +808,13 @@ Chart histogram_chart(const PointsPicture& picture) {
     Chart chart{.title = picture.title, .subtitle = picture.subtitle};
     const std::size_t panels = std::min(box.dimension(), most_panels);
     for (std::size_t k = 0; k < panels; ++k)
-        if (box.low[k] != box.low[0] || box.high[k] != box.high[0] ||
+        if (box.low[k] != box.low[0] || box.high[k] != box.high[0] || is_log(picture, k) ||
             words_in(*picture.sets[0], k) != nullptr)
             chart.own_x = true;
     for (std::size_t k = 0; k < panels; ++k) {
         ChartPanel panel = histogram_panel(picture, box, k);
         if (panels > 1 && !chart.own_x) {
-            panel.y_name = fmt::format("{} of {}", panel.y_name, panel.x_name);
+            panel.y_name = fmt::format("density of {}", panel.x_name);
             panel.x_name = "coordinate";
         }
         if (k > 0)
@@ -800,8 +828,7 @@ Drawing draw_points(const PointsPicture& picture, const PictureStyle& style,
                     const RunContext& run) {
     const std::size_t d = picture.sets[0]->dimension();
     if (d == 1) return draw_chart(histogram_chart(picture), style);
-    return d == 3 && !picture.pairs ? draw_space(picture, style, run)
-                                    : draw_pairs(picture, style, run);
+    return is_space(picture) ? draw_space(picture, style, run) : draw_pairs(picture, style, run);
 }
 
 Drawing draw_pairs(const PointsPicture& picture, const PictureStyle& style, const RunContext& run) {

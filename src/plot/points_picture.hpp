@@ -60,6 +60,8 @@ struct PointsPicture {
     std::vector<std::pair<Position, Position>> lines = {};  ///< drawn thinly over plane points
     bool cells = false;  ///< draws the Voronoi cells of a single plane set, in its domain's box
     bool pairs = false;  ///< draws three coordinates as pairs
+    /// Whether each coordinate has a logarithmic axis; empty: none has.
+    std::vector<bool> log = {};
     std::size_t most_disks = 20'000;  ///< limit beyond which pixels replace disks
     std::size_t most_coordinates = most_pair_coordinates;  ///< limit for coordinates drawn in pairs
 };
@@ -74,6 +76,9 @@ std::vector<std::vector<Position>> outline_of(const Domain& domain);
 /// @throws Error(input) if the range is too wide for an axis
 Box shown_box(std::span<const PointSet* const> sets);
 
+/// Whether all numbers of a coordinate that a picture shows are positive.
+bool is_positive(std::span<const PointSet* const> sets, std::size_t k);
+
 /// Names of the coordinates, with notes on ranges too narrow to be shown.
 std::vector<std::string> shown_names(const PointsPicture& picture);
 
@@ -81,9 +86,15 @@ std::vector<std::string> shown_names(const PointsPicture& picture);
 std::pair<std::string, std::string> shown_ends(const PointsPicture& picture, const Box& box,
                                                std::size_t k);
 
-/// Height over width of a picture of two coordinates: the ratio of the box's sides, or 1 if that is
-/// beyond most_unlike.
-double picture_ratio(const Box& box, std::size_t i, std::size_t j);
+/// Axis of a coordinate, without a name.
+Axis shown_axis(const PointsPicture& picture, const Box& box, std::size_t k);
+
+/// Height over width of a picture of the first two coordinates: the ratio of the box's sides, or 1
+/// if that is beyond most_unlike or an axis is logarithmic.
+double picture_ratio(const PointsPicture& picture, const Box& box);
+
+/// Whether the picture shows a view in space.
+bool is_space(const PointsPicture& picture);
 
 /// A three-dimensional point in a picture's parallel projection. The unit is the box's longest
 /// side; each side has its own unit if the ratio of sides is beyond most_unlike. `depth` is larger

@@ -547,6 +547,7 @@ Chart number_over_count(Measurements ms, const std::string& key) {
         panel.series.push_back(series_over_count(family, errors, found[family]));
     panel.log_y = range_of(panel.series).first > 0;
     if (panel.log_y) panel.guides = falling_guides(panel.series[0]);
+    for (Series& series : panel.series) name_slope(series);
     Chart chart = titled(capitalised(words_of(ms[0].analyzer)), ms);
     chart.panels.push_back(std::move(panel));
     return chart;

@@ -34,25 +34,6 @@ bool is_error(const Topic& topic, std::span<const MeanRow> means) {
         means, [&](const MeanRow& row) { return topic_of(row) == topic && row.mean < 0; });
 }
 
-/// Exponent of n in a power law fitted to the curve; nullopt for fewer than three values, or values
-/// that are not positive.
-std::optional<double> slope_of(const Series& series) {
-    if (series.x.size() < 3) return std::nullopt;
-    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
-    for (std::size_t i = 0; i < series.x.size(); ++i) {
-        if (!(series.y[i] > 0)) return std::nullopt;
-        const double u = std::log(series.x[i]);
-        const double v = std::log(series.y[i]);
-        n += 1;
-        x += u;
-        y += v;
-        xx += u * u;
-        xy += u * v;
-    }
-    const double spread = n * xx - x * x;
-    return spread > 0 ? std::optional((n * xy - x * y) / spread) : std::nullopt;
-}
-
 Series series_of(const std::string& generator, const Topic& topic, bool errors,
                  std::span<const MeanRow> means) {
     std::vector<const MeanRow*> rows;
@@ -67,8 +48,7 @@ Series series_of(const std::string& generator, const Topic& topic, bool errors,
         series.low.push_back(errors ? row->rms_low : row->t_low);
         series.high.push_back(errors ? row->rms_high : row->t_high);
     }
-    if (const auto slope = slope_of(series))
-        series.name += fmt::format(" (slope {})", printed(*slope, 2));
+    name_slope(series);
     return series;
 }
 

@@ -2,8 +2,7 @@
 //
 // Charts of studies: a panel for each result with a curve for each generator over the number of
 // points. Curves show means of the sets with their intervals as bands, or root mean squares of
-// results that are errors. Legends give slopes: those of least-squares lines through the logarithms
-// of count and value, if there are at least three counts and all values are positive.
+// results that are errors. Legends give slopes with their standard errors.
 #pragma once
 
 #include <span>

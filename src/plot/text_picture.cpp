@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::size_t frame_columns = 3;  ///< columns beside the field, in addition to the numbers
 constexpr std::size_t frame_rows = 6;     ///< title, names, frame, numbers and shell prompt
+constexpr std::array<const char*, 5> shades = {" ", "░", "▒", "▓", "█"};
 constexpr std::size_t least_columns = 8;
 constexpr std::size_t least_rows = 4;
 
@@ -53,22 +54,22 @@ std::string plane_as_text(const PointsPicture& picture, const TextRoom& room, st
     const auto names = shown_names(picture);
     const auto [low_x, high_x] = shown_ends(picture, box, i);
     const auto [low_y, high_y] = shown_ends(picture, box, j);
-    const TextFrame frame{.title = plane ? picture.title : "",
-                          .low_x = printable(low_x),
+    const TextFrame frame{.low_x = printable(low_x),
                           .high_x = printable(high_x),
                           .name_x = printable(names[i]),
                           .low_y = printable(low_y),
                           .high_y = printable(high_y),
                           .name_y = printable(names[j]),
                           .coloured = room.coloured};
-    const double ratio = plane ? picture_ratio(box, 0, 1) : 1;
+    const double ratio = plane ? picture_ratio(picture, box) : 1;
+    const Axis x = shown_axis(picture, box, i);
+    const Axis y = shown_axis(picture, box, j);
     DotMatrix dots = field_for(room, frame, ratio);
     for (std::size_t s = 0; s < picture.sets.size(); ++s) {
         dots.take_pen(s);
         const PointSet& set = *picture.sets[s];
         for (std::size_t k = 0; k < set.count(); ++k)
-            dots.set((set[k][i] - box.low[i]) / box.extent(i),
-                     (set[k][j] - box.low[j]) / box.extent(j));
+            dots.set(x.share(set[k][i]), y.share(set[k][j]));
     }
     return framed(dots, frame);
 }
@@ -79,7 +80,7 @@ std::string pairs_as_text(const PointsPicture& picture, const TextRoom& room) {
     const std::size_t shown = std::min(d, std::max<std::size_t>(3, 1 + room.columns / least));
     TextRoom part = room;
     part.columns = room.columns / (shown - 1) - 1;
-    std::string text = printable(picture.title) + "\n";
+    std::string text;
     for (std::size_t j = 1; j < shown; ++j) {
         std::vector<std::string> row;
         for (std::size_t i = 0; i < j; ++i) row.push_back(plane_as_text(picture, part, i, j));
@@ -103,8 +104,7 @@ std::string space_as_text(const PointsPicture& picture, const TextRoom& room) {
         }
     }
     const auto names = shown_names(picture);
-    return framed(dots, {.title = picture.title,
-                         .name_x = printable(fmt::format("{} and {} to the right, {} upward",
+    return framed(dots, {.name_x = printable(fmt::format("{} and {} to the right, {} upward",
                                                          names[0], names[1], names[2])),
                          .coloured = room.coloured});
 }
@@ -125,7 +125,7 @@ void draw_bars(DotMatrix& dots, const Bars& bars, const Axis& x, const Axis& y, 
 }
 
 /// Letter of a curve: a, b, ..., z, A, ...
-std::string letter_of(std::size_t curve) {
+std::string curve_letter(std::size_t curve) {
     constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
     return std::string(1, letters[curve % letters.size()]);
 }
@@ -147,7 +147,7 @@ std::string legend_as_text(const Chart& chart, std::size_t number, const TextRoo
         text += fits ? "   " : used > 0 ? "\n" : "";
         used = fits ? used + 3 + width : width;
         const std::size_t bars = panel.bars.size();
-        text += in_colour(i < bars ? "■" : letter_of(i - bars), i, room.coloured) + name;
+        text += in_colour(i < bars ? "■" : curve_letter(i - bars), i, room.coloured) + name;
     }
     return text + "\n";
 }
@@ -187,7 +187,7 @@ std::vector<std::string> ends_of(const ChartPanel& panel, const DotMatrix& dots,
         const double down = (1 - std::clamp(y.share(*last), 0.0, 1.0)) * static_cast<double>(rows);
         std::string& end = ends[std::min(static_cast<std::size_t>(down), rows - 1)];
         if (end.empty()) end = " ";
-        end += in_colour(letter_of(s), s, coloured);
+        end += in_colour(curve_letter(s), s, coloured);
     }
     return ends;
 }
@@ -242,8 +242,7 @@ std::string panel_as_text(const Chart& chart, std::size_t number, const PictureS
 
 std::string chart_as_text(const Chart& chart, PictureStyle style, const TextRoom& room) {
     style.tight = true;  // makes the numbers at the ends those of the data
-    const std::string title = printable(style.title.value_or(chart.title));
-    std::string text = title.empty() ? "" : title + "\n";
+    std::string text;
     TextRoom part = room;
     part.rows = std::max(room.rows / chart.panels.size(), frame_rows + 2 * least_rows);
     std::size_t side = 0;
@@ -251,17 +250,19 @@ std::string chart_as_text(const Chart& chart, PictureStyle style, const TextRoom
         for (const auto& [low, high] = ends_upward(chart, number, style);
              const std::string& end : {low, high})
             side = std::max(side, code_points(end).size());
-    for (std::size_t number = 0; number < chart.panels.size(); ++number)
+    for (std::size_t number = 0; number < chart.panels.size(); ++number) {
+        if (room.letter && chart.panels.size() > 1) text += letter_of(*room.letter + number) + "\n";
         text +=
             legend_as_text(chart, number, room) + panel_as_text(chart, number, style, side, part);
+    }
     return text;
 }
 
 std::string points_as_text(const PointsPicture& picture, const TextRoom& room) {
     const std::size_t d = picture.sets[0]->dimension();
     if (d == 1) return chart_as_text(histogram_chart(picture), {}, room);
-    if (d > 3 || (d == 3 && picture.pairs)) return pairs_as_text(picture, room);
-    return d == 3 ? space_as_text(picture, room) : plane_as_text(picture, room);
+    if (is_space(picture)) return space_as_text(picture, room);
+    return d > 2 ? pairs_as_text(picture, room) : plane_as_text(picture, room);
 }
 
 TextRoom shared_room(const TextRoom& room, std::size_t pictures) {
@@ -298,13 +299,12 @@ std::string side_by_side(const std::vector<std::string>& pictures, const TextRoo
     return text;
 }
 
-std::string spectrum_as_text(const Grid& power, const std::string& title, const TextRoom& room) {
-    constexpr std::array<const char*, 5> shades = {" ", "░", "▒", "▓", "█"};
+std::string spectrum_as_text(const Grid& power, const TextRoom& room) {
     const std::size_t rows =
         std::min({inner(room.rows, frame_rows, least_rows),
                   inner(room.columns, frame_columns, least_columns) / 2, power.rows});
     const std::size_t columns = 2 * rows;
-    std::string text = printable(title) + "\n";
+    std::string text;
     for (std::size_t j = 0; j < rows; ++j) {
         for (std::size_t i = 0; i < columns; ++i) {
             const std::size_t top = (rows - 1 - j) * power.rows / rows;
@@ -327,21 +327,34 @@ std::string spectrum_as_text(const Grid& power, const std::string& title, const 
     return text + fmt::format("frequencies from −{0} to {0}\n", power.rows / 2);
 }
 
+std::string pair_table_as_text(const PairTable& table, double largest) {
+    std::string text;
+    for (std::size_t j = table.dimension - 1; j > 0; --j) {
+        text += fmt::format("{:3} │", j + 1);
+        for (std::size_t i = 0; i < j; ++i) {
+            const double share = largest > 0 ? table.at(i, j) / largest : 0;
+            const char* shade = shades[static_cast<std::size_t>(std::clamp(5 * share, 0.0, 4.0))];
+            text += fmt::format("{0}{0}", shade);
+        }
+        text += "\n";
+    }
+    return text + fmt::format("    └{0:─<{1}}\n     1{2:>{3}}\n", "", 2 * (table.dimension - 1),
+                              table.dimension - 1, 2 * (table.dimension - 1) - 1);
+}
+
 std::string local_discrepancy_as_text(const PointSet& points, const WorstBoxes& worst,
-                                      const std::string& title, double largest,
-                                      const TextRoom& room, const RunContext& run) {
+                                      double largest, const TextRoom& room, const RunContext& run) {
     constexpr std::array<const char*, 5> few = {" ", "·", ":", "o", "O"};
-    constexpr std::array<const char*, 5> many = {" ", "░", "▒", "▓", "█"};
     const std::size_t rows = std::min(inner(room.rows, frame_rows + 2, least_rows),
                                       inner(room.columns, frame_columns, least_columns) / 2);
     const Grid grid = local_discrepancy(points, 2 * rows, rows, run);
-    std::string text = fmt::format("{}\n┌{:─<{}}┐\n", printable(title), "", grid.columns);
+    std::string text = fmt::format("┌{:─<{}}┐\n", "", grid.columns);
     for (std::size_t row = rows; row-- > 0;) {
         text += "│";
         for (std::size_t column = 0; column < grid.columns; ++column) {
             const double share = grid.values[row * grid.columns + column] / largest;
             const auto level = static_cast<std::size_t>(std::clamp(5 * std::abs(share), 0.0, 4.0));
-            const char* letter = (share < 0 ? few : many)[level];
+            const char* letter = (share < 0 ? few : shades)[level];
             text += level == 0 ? letter : in_colour(letter, share < 0 ? 0 : 1, room.coloured);
         }
         text += "│\n";

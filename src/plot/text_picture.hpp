@@ -3,21 +3,25 @@
 // Pictures as text for terminals: points, charts, spectra, local discrepancies.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "plot/chart.hpp"
 #include "plot/local_discrepancy.hpp"
+#include "plot/pair_table.hpp"
 #include "plot/points_picture.hpp"
 #include "stipple/report.hpp"
 
 namespace stipple::plot {
 
-/// Available characters, at least 1 in each direction. Pictures that need more exceed them.
+/// Available characters, at least 1 in each direction. Pictures that need more exceed them. The rows
+/// include one for a title, which the caller writes.
 struct TextRoom {
     std::size_t columns = 80;
     std::size_t rows = 24;
-    bool coloured = false;  ///< uses terminal colour codes
+    bool coloured = false;                   ///< uses terminal colour codes
+    std::optional<std::size_t> letter = {};  ///< number of the first panel's letter
 };
 
 /// One coordinate: a histogram. Two: the plane. Three: a view from a fixed direction. More: as many
@@ -29,13 +33,15 @@ std::string points_as_text(const PointsPicture& picture, const TextRoom& room);
 std::string chart_as_text(const Chart& chart, PictureStyle style, const TextRoom& room);
 
 /// A spectrum in five shades of grey.
-std::string spectrum_as_text(const Grid& power, const std::string& title, const TextRoom& room);
+std::string spectrum_as_text(const Grid& power, const TextRoom& room);
 
 /// The local discrepancy in shades up to `largest`: blocks for too many points, letters for too
 /// few.
 std::string local_discrepancy_as_text(const PointSet& points, const WorstBoxes& worst,
-                                      const std::string& title, double largest,
-                                      const TextRoom& room, const RunContext& run);
+                                      double largest, const TextRoom& room, const RunContext& run);
+
+/// Numbers of pairs of coordinates in five shades up to `largest`.
+std::string pair_table_as_text(const PairTable& table, double largest);
 
 /// Characters for each of several pictures side by side, in as many columns as fit.
 TextRoom shared_room(const TextRoom& room, std::size_t pictures);

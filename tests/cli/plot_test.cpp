@@ -112,8 +112,6 @@ TEST(Plot, RefusesStudiesThatItCannotDraw) {
     expect_refusal(box.shell("head -n 1 s.csv | stipple plot"), 3, "the study has no rows");
     expect_refusal(box.shell("(cat s.csv; echo nonsense) | stipple plot"), 3,
                    "this is not a row of a study");
-    expect_refusal(box.shell("stipple generate random | stipple plot s.csv -"), 3,
-                   "one picture can show points, reports or a study");
 }
 
 TEST(Plot, NotesTheCommandAsAShellTakesIt) {
@@ -330,15 +328,18 @@ TEST(Plot, RefusesLogarithmicAxesOfWhatHasNone) {
     good(box.shell("stipple generate random -n 100 -o p.csv"));
     good(box.shell("stipple analyze periodogram p.csv --max-frequency 4 --grid g.npy"));
     for (const std::string axis : {"--x-scale", "--y-scale"}) {
-        for (const std::string chart :
-             {"points", "density", "spectrum", "differential", "local-discrepancy"})
+        for (const std::string chart : {"spectrum", "differential", "local-discrepancy"})
             for (const std::string format : {"svg", "text"})
                 expect_refusal(
                     box.run({"plot", "p.csv", "--chart", chart, "-f", format, axis, "log"}), 2,
                     axis + ": a picture of");
-        expect_refusal(box.run({"plot", "p.csv", axis, "log"}), 2, axis + ": a picture of points");
+        expect_refusal(box.run({"plot", "--generate", "random", "-d", "3", axis, "log"}), 2,
+                       axis + ": a picture of such points");
+        expect_refusal(box.run({"plot", "--generate", "halton", axis, "log"}), 3,
+                       axis + ": a logarithmic axis cannot show this coordinate");
         expect_refusal(box.run({"plot", "g.npy", axis, "log"}), 2, axis + ": a picture of a table");
-        for (const std::string chart : {"histogram", "distances", "radial", "pair-correlation"})
+        for (const std::string chart :
+             {"points", "density", "histogram", "distances", "radial", "pair-correlation"})
             good(box.run({"plot", "p.csv", "--chart", chart, axis, "log"}));
         good(box.run({"plot", "p.csv", axis, "linear"}));
     }
@@ -372,10 +373,10 @@ TEST(Plot, RefusesWhatIsNoPictureAndLeavesNoFile) {
     expect_refusal(box.run({"plot", "none.json", "-o", "e.svg"}), 3, "none.json");
     expect_refusal(box.run({"plot", "chi.json", "-o", "c.svg"}), 3, "nothing to draw");
     expect_refusal(box.run({"plot", "moments.json", "-o", "c.svg"}), 3, "nothing to draw");
-    expect_refusal(box.run({"plot", "chi.json", "p.csv", "-o", "c.svg"}), 3,
-                   "one picture can show points, reports or a study");
     expect_refusal(box.run({"plot", "chi.json", "nearest.json", "-o", "c.svg"}), 3,
-                   "reports of different analyzers, chi-square and nearest-neighbor");
+                   "a single report of chi-square has only numbers");
+    expect_refusal(box.run({"plot", "chi.json", "p.csv", "--labels", "a"}), 2,
+                   "--labels: applies to inputs of a single kind");
     expect_refusal(box.run({"plot", "chi.json", "--chart", "points"}), 2, "--chart");
     expect_refusal(box.run({"plot", "missing.csv"}), 4, "no such file");
     expect_refusal(box.run({"plot", "p.csv", "-o", "no/where.svg"}), 4, "no folder");
@@ -613,6 +614,45 @@ TEST(Plot, SeveralSetsStandSideBySide) {
     EXPECT_THAT(text, HasSubstr("set 2"));
     const auto first = text.substr(0, text.find('\n'));
     EXPECT_THAT(first, ::testing::AllOf(HasSubstr("set 0"), HasSubstr("set 1")));
+}
+
+// Points, reports of two analyzers and a study in one figure, with letters in their order; a chart
+// of two panels has two.
+TEST(Plot, FramesOfAllKindsHaveLetters) {
+    const Sandbox box;
+    good(box.shell("stipple generate halton -n 64 -o p.csv"));
+    good(box.shell("stipple analyze pair-correlation,periodogram p.csv -o r.json"));
+    good(
+        box.shell("stipple study --generators 'random;halton' -n 16..64*2 --seeds 2 --analyze "
+                  "star-discrepancy --keys value --quiet -o s.csv"));
+    good(box.shell("stipple plot s.csv r.json p.csv --letters -o p.svg"));
+    const std::string text = xml(box, "p.svg", "text");
+    std::size_t last = 0;
+    for (const char* label : {"|(b) Pair correlation", "|(c)|", "|(d)|", "|(e) Star discrepancy"}) {
+        EXPECT_GT(text.find(label), last) << label << text;
+        last = text.find(label);
+    }
+    EXPECT_TRUE(text.starts_with("(a) p.csv|")) << text;
+    EXPECT_EQ(xml(box, "p.svg", "circle"), "70\n");  // of the points, and of the study
+    EXPECT_THAT(good(box.shell("stipple plot s.csv p.csv --letters -f text")),
+                ::testing::AllOf(HasSubstr("(a) p.csv"), HasSubstr("(b) Star discrepancy")));
+    good(box.shell("stipple plot p.csv --letters -o p.svg"));
+    EXPECT_THAT(xml(box, "p.svg", "text"), Not(HasSubstr("(a)")));  // nothing to distinguish
+}
+
+TEST(Plot, DrawsPairsOfProjections) {
+    const Sandbox box;
+    good(box.shell("stipple analyze t-value --generate sobol -d 5 -n 64 -o t.json"));
+    good(box.shell("stipple plot t.json -o t.svg"));
+    EXPECT_THAT(xml(box, "t.svg", "text"),
+                HasSubstr("Quality parameter t of pairs of coordinates|n = 64, d = 5"));
+    EXPECT_EQ(xml(box, "t.svg", "image"), "2\n");
+    good(
+        box.shell("stipple analyze star-discrepancy --generate halton --generate sobol -d 4 -n 64 "
+                  "--projections 2 | stipple plot --labels A,B -o s.svg"));
+    EXPECT_THAT(xml(box, "s.svg", "text"), ::testing::AllOf(HasSubstr("A|"), HasSubstr("B|")));
+    EXPECT_EQ(xml(box, "s.svg", "image"), "3\n");  // one bar for both
+    EXPECT_THAT(good(box.shell("stipple plot t.json -f text")), HasSubstr("  2 │"));
 }
 
 // The number of rows depends on the size; a size that is too small is an error.

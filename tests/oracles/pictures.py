@@ -49,3 +49,67 @@ def check_fonts(cases):
             wanted = letters(element.text or "" for element in svg.iter(NAMESPACE + "text"))
             found = letters(text)
             cases.expect(f"{kind}: text", found == wanted, f"{''.join(found)} for {''.join(wanted)}")
+
+
+LONG = "a long name of sixty letters as nobody would give to a series"[:60]
+SIZES = [[], ["--width", 400], ["--width", 250], ["--height", 300], ["--width", 1600, "--height", 400]]
+NAMED = {
+    "plane": ["--generate", "sobol", "-n", 64, "--axes", f"{LONG},{LONG}"],
+    "space": ["--generate", "random", "-n", 64, "-d", 3, "--axes", ",".join([LONG] * 3)],
+    "pairs": ["--generate", "random", "-n", 64, "-d", 4, "--axes", ",".join([LONG] * 4)],
+    "sheet": ["--generate", "random", "--generate", "halton", "-n", 64, "--labels", f"A {LONG},B {LONG}"],
+    "overlay": ["--generate", "random", "--generate", "halton", "-n", 64, "--labels", f"A {LONG},B {LONG}", "--overlay"],
+    "radial": ["--generate", "random", "--generate", "halton", "-n", 64, "--chart", "radial", "--axes", ",".join([LONG] * 3)],
+    "distances": ["--generate", "random", "-n", 64, "--chart", "distances", "--axes", f"{LONG},{LONG}"],
+    "local discrepancy": ["--generate", "halton", "-n", 64, "--chart", "local-discrepancy", "--axes", f"{LONG},{LONG}"],
+    "spectrum": ["--generate", "random", "-n", 64, "--chart", "spectrum", "--axes", f"{LONG},{LONG}"],
+}
+
+
+def check_texts(cases):
+    """Texts of PDFs are on the page (pdftotext -bbox), in all sizes that are not refused."""
+    with tempfile.TemporaryDirectory() as folder:
+        pdf = os.path.join(folder, "picture.pdf")
+        for kind, arguments in NAMED.items():
+            for size in SIZES:
+                cases.run("plot", *arguments, *size, "--title", 2 * LONG, "-o", pdf, "--quiet")
+                text = subprocess.run(["pdftotext", "-bbox", pdf, "-"], capture_output=True, text=True, check=True).stdout
+                page = tree.fromstring(text).find(".//{*}page")
+                wide, high = float(page.get("width")), float(page.get("height"))
+                words = list(page.iter("{*}word"))
+                cases.expect(f"{kind} {size}: words", len(words) > 10)
+                for word in words:
+                    left, top, right, bottom = (float(word.get(key)) for key in ("xMin", "yMin", "xMax", "yMax"))
+                    cases.expect(f"{kind} {size}: {word.text} is on the page",
+                                 left >= 0 and top >= -1 and right <= wide and bottom <= high + 1,
+                                 f"{left, top, right, bottom} of {wide, high}")
+
+
+def check_slopes(cases):
+    """Slopes of studies and their standard errors (scipy.stats.linregress)."""
+    import csv
+    import math
+
+    from scipy.stats import linregress
+
+    with tempfile.TemporaryDirectory() as folder:
+        table, svg = os.path.join(folder, "s.csv"), os.path.join(folder, "s.svg")
+        cases.run("study", "--generators", "random;halton;sobol:scramble=owen", "-n", "16..1024*2", "--seeds", 4, "--analyze",
+                  "star-discrepancy,nearest-neighbor", "--keys", "value,minimum", "-o", table, "--quiet")
+        for key in "value", "minimum":
+            cases.run("plot", table, "--key", key, "-o", svg, "--quiet")
+            texts = [element.text or "" for element in tree.parse(svg).getroot().iter(NAMESPACE + "text")]
+            with open(table, newline="") as file:
+                rows = [row for row in csv.DictReader(file) if row["key"] == key]
+            for name in sorted({row["generator"] for row in rows}):
+                values = {}
+                for row in rows:
+                    if row["generator"] == name:
+                        values.setdefault(int(row["count"]), []).append(float(row["value"]))
+                fit = linregress([math.log(n) for n in values], [math.log(sum(v) / len(v)) for v in values.values()])
+                legend = next((text for text in texts if text.startswith(name) and "slope" in text), "")
+                numbers = legend.partition("slope ")[2].rstrip(")").replace("\N{MINUS SIGN}", "-").split(" ± ")
+                same = len(numbers) == 2 and all(
+                    abs(float(number) - exact) <= 0.5001 * 10.0 ** -len(number.partition(".")[2])
+                    for number, exact in zip(numbers, (fit.slope, fit.stderr)))
+                cases.expect(f"{key} of {name}", same, f"{legend} for {fit.slope} ± {fit.stderr}")

@@ -3,16 +3,24 @@
 // Charts of reports: choice and correctness of the drawn shapes.
 #include "plot/chart.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <map>
 
 #include "core/error.hpp"
 #include "plot/drawing/letters.hpp"
+#include "plot/figure.hpp"
+#include "plot/local_discrepancy.hpp"
+#include "plot/pair_table.hpp"
+#include "plot/points_picture.hpp"
 #include "plot/report_charts.hpp"
 #include "plot/spectral_table.hpp"
 #include "report/document.hpp"
+#include "support/units.hpp"
 
 namespace stipple::testing::chart_test {
 
@@ -462,49 +470,196 @@ TEST(ReportCharts, MarksAtTheEndsAreWithinTheFrame) {
     }
 }
 
-// For long names and small pictures, every letter is drawn inside the picture.
-TEST(Chart, CutsNoNameOff) {
-    const std::string name =
-        "a_very/long.name of-a set, of which nobody would think: 0123456789abcdef";
-    std::string plain = name;
-    std::erase(plain, ' ');
-    for (const double width : {200.0, 400.0, 720.0})
-        for (const std::size_t panels : {1, 3}) {
-            Chart chart{.title = name, .subtitle = name};
+namespace {
+
+using Draw = std::function<Drawing(const PictureStyle&)>;
+
+/// Pictures of every kind, with this text as title and as name of everything.
+std::map<std::string, Draw> pictures_named(const std::string& name) {
+    std::map<std::string, Draw> all;
+    const auto points = [&](std::size_t d, std::size_t sets, bool pairs, std::size_t disks) {
+        return [=](const PictureStyle& style) {
+            PointSet set = make("random", {200, d});
+            for (std::size_t k = 0; k < d; ++k) set.provenance.columns.push_back(name);
+            return draw_points({.sets = std::vector<const PointSet*>(sets, &set),
+                                .names = std::vector<std::string>(sets, name),
+                                .title = name,
+                                .subtitle = name,
+                                .marking = disks > 0 ? Marking::automatic : Marking::density,
+                                .pairs = pairs},
+                               style, {});
+        };
+    };
+    all["plane"] = points(2, 1, false, 1000);
+    all["overlay"] = points(2, 3, false, 1000);
+    all["density"] = points(2, 1, false, 0);
+    all["space"] = points(3, 1, false, 1000);
+    all["pairs"] = points(3, 2, true, 1000);
+    all["five"] = points(5, 1, false, 1000);
+    all["histogram"] = points(1, 2, false, 1000);
+    for (const std::size_t panels : {1, 3})
+        for (const bool bars : {false, true}) {
+            Chart chart{.title = name, .subtitle = name, .own_x = bars};
             for (std::size_t i = 0; i < panels; ++i)
-                chart.panels.push_back({.x_name = name,
-                                        .y_name = name,
-                                        .series = {{.name = name, .x = {1, 2}, .y = {3, 4}},
-                                                   {.name = "b", .x = {1, 2}, .y = {4, 3}}}});
-            chart.panels.push_back({.x_name = name,
-                                    .y_name = name,
-                                    .series = {{.name = name, .x = {1, 2}, .y = {3, 4}}},
-                                    .categories = {name, "other"}});
-            chart.own_x = true;
-            const Drawing drawing = draw_chart(chart, {.width = width});
-            std::string all;
-            for (const Shape& shape : drawing.shapes) {
-                const auto* label = std::get_if<Label>(&shape);
-                if (label == nullptr) continue;
-                all += label->text;
-                const double wide = text_width(label->text, label->size);
-                const double back = label->anchor == Anchor::start    ? 0
-                                    : label->anchor == Anchor::middle ? wide / 2
-                                                                      : wide;
-                const double from = label->upward ? label->at.y + back : label->at.x - back;
-                const double to = label->upward ? from - wide : from + wide;
-                EXPECT_GE(std::min(from, to), -1) << label->text << " " << width;
-                EXPECT_LE(std::max(from, to), 1 + (label->upward ? drawing.height : drawing.width))
-                    << label->text << " " << width;
-                EXPECT_GE(label->at.x, 0) << label->text;
-                EXPECT_LE(label->at.y, drawing.height) << label->text;
-            }
-            std::erase(all, ' ');
-            std::size_t found = 0;
-            for (auto at = all.find(plain); at != std::string::npos; at = all.find(plain, at + 1))
-                ++found;
-            EXPECT_EQ(found, 2 + 3 * panels + 2 - (panels - 1) + 1) << width;
+                chart.panels.push_back(
+                    {.x_name = name,
+                     .y_name = name,
+                     .series = {{.name = name, .x = {1, 2}, .y = {3, 4}},
+                                {.name = "b", .x = {1, 2}, .y = {4, 3}}},
+                     .guides = {{.name = name, .y = {3}}},
+                     .categories = bars ? std::vector{name, name} : std::vector<std::string>{}});
+            all[fmt::format("chart {}{}", panels, bars)] = [=](const PictureStyle& style) {
+                return draw_chart(chart, style);
+            };
         }
+    all["spectrum"] = [=](const PictureStyle& style) {
+        const Grid power{.rows = 3, .columns = 3, .values = std::vector<double>(9, 1)};
+        return draw_spectrum(power, name, name, style, {.x = name, .y = name});
+    };
+    all["local discrepancy"] = [=](const PictureStyle& style) {
+        PointSet set = make("random", {20, 2});
+        set.provenance.columns = {name, name};
+        return draw_local_discrepancy(set, worst_boxes_of(set, {}),
+                                      {.title = name, .subtitle = name, .largest = 0.3}, style, {});
+    };
+    all["pair table"] = [=](const PictureStyle& style) {
+        return draw_pair_table({.title = name,
+                                .subtitle = name,
+                                .dimension = 9,
+                                .values = std::vector<double>(36, 0.01)},
+                               0.01, true, style);
+    };
+    return all;
+}
+
+/// Number of times that a text is drawn, joined from consecutive lines.
+std::size_t times_drawn(const Drawing& drawing, std::string text) {
+    std::string all;
+    for (const Label* label : shapes_of<Label>(drawing)) all += label->text;
+    std::erase(all, ' ');
+    std::erase(text, ' ');
+    std::size_t found = 0;
+    for (auto at = all.find(text); at != std::string::npos; at = all.find(text, at + 1)) ++found;
+    return found;
+}
+
+}  // namespace
+
+// Pictures of all kinds with names of 5 to 60 letters, in all sizes: the requested size, or a
+// refusal that names one that is drawn; each text whole, inside the picture, and not over another.
+TEST(Chart, CutsNoTextOff) {
+    for (const std::string& name :
+         {std::string("width"),
+          std::string("a very/long name of a set, as nobody would: 0123456789abcdef")})
+        for (const auto& [kind, draw] : pictures_named(name)) {
+            const std::size_t times = times_drawn(draw({.width = 2000}), name);
+            for (const auto& [width, height] : {std::pair{0, 0},
+                                                {1600, 0},
+                                                {400, 0},
+                                                {250, 0},
+                                                {120, 0},
+                                                {0, 200},
+                                                {0, 800},
+                                                {400, 300}}) {
+                const auto where = fmt::format("{} {} x {}, {}", kind, width, height, name);
+                PictureStyle style{.width = double(width), .height = double(height)};
+                Drawing drawing;
+                const std::string refusal = error_of([&] { drawing = fitted(style, draw); });
+                if (refusal != "none") {
+                    EXPECT_TRUE(width == 120 || height > 0) << where;
+                    ASSERT_THAT(refusal, HasSubstr("no room for the picture; at least ")) << where;
+                    continue;
+                }
+                EXPECT_EQ(times_drawn(drawing, name), times) << where;
+                EXPECT_GE(style.scale, 0.5) << where;
+                const double wide = drawing.width * style.scale;
+                const double high = drawing.height * style.scale;
+                EXPECT_TRUE(width == 0 || std::abs(wide - width) < 0.01) << where << ": " << wide;
+                EXPECT_TRUE(height == 0 || high <= height + 0.01) << where << ": " << high;
+                for (const Label* label : shapes_of<Label>(drawing)) {
+                    const Area room = room_of(*label);
+                    EXPECT_TRUE(room.left >= 0 && room.right() <= drawing.width && room.top >= 0 &&
+                                room.bottom() <= drawing.height)
+                        << where << ": " << label->text;
+                }
+            }
+        }
+}
+
+// DejaVu Sans is up to 18 % wider than Helvetica, and its bold letters up to 30 %.
+TEST(Chart, TextsHaveRoomForWiderFonts) {
+    Label label{.text = "halton", .at = {100, 50}, .size = 10, .anchor = Anchor::end};
+    const double width = text_width("halton", 10);
+    EXPECT_NEAR(room_of(label).left, 100 - 1.16 * width, 1e-9);
+    EXPECT_NEAR(room_of(label).right(), 100, 1e-9);
+    label.bold = label.upward = true;
+    EXPECT_NEAR(room_of(label).top, 50, 1e-9);
+    EXPECT_NEAR(room_of(label).height, 1.3 * width, 1e-9);
+}
+
+TEST(Chart, PanelsHaveLetters) {
+    Chart chart{.title = "T"};
+    const auto texts = [&](std::optional<std::size_t> letter) {
+        std::string all;
+        for (const Label* label : shapes_of<Label>(draw_chart(chart, {.letter = letter})))
+            if (label->bold) all += label->text + "|";
+        return all;
+    };
+    const ChartPanel panel{
+        .x_name = "x", .y_name = "y", .series = {{.name = "s", .x = {1, 2}, .y = {1, 2}}}};
+    chart.panels = {panel};
+    EXPECT_EQ(texts(std::nullopt), "T|");
+    EXPECT_EQ(texts(1), "(b) T|");
+    chart.panels = {panel, panel};
+    EXPECT_EQ(texts(std::nullopt), "T|");
+    EXPECT_EQ(texts(2), "T|(c)|(d)|");
+}
+
+// The squares are at (i, j) with the numbers of the report, which has the pairs (1,2), (1,3), (2,3).
+TEST(PairTable, HasASquareForEachPair) {
+    Report projections;
+    projections.add("value", Report::Curve{0.1, 0.4, 0.2});
+    Report results;
+    results.add("projections", std::move(projections));
+    Measurement m = measurement("star-discrepancy", std::move(results), "a.csv");
+    EXPECT_FALSE(pair_table(m));  // two coordinates have one pair
+    m.dimension = 3;
+    const auto table = pair_table(m);
+    ASSERT_TRUE(table);
+    EXPECT_EQ(table->subtitle, "n = 64, d = 3 · largest 0.4, of 1 and 3");
+    EXPECT_EQ(table->largest(), 0.4);
+    const Drawing drawing = draw_pair_table(*table, 0.4, true, {});
+    const auto images = shapes_of<PixelImage>(drawing);
+    ASSERT_EQ(images.size(), 2U);  // the other one is the bar
+    const Colour white = light_theme.background;
+    const std::vector<Colour> expected = {light_theme.ink, shade_of(light_theme, 0.5),
+                                          shade_of(light_theme, 0.25), white};
+    EXPECT_EQ(images[0]->pixels, expected);  // (1,3) (2,3); (1,2) and none
+    const Area& area = images[0]->area;
+    std::map<std::string, Position> numbers;
+    for (const Label* label : shapes_of<Label>(drawing))
+        if (label->size == 11) numbers[label->text] = label->at;
+    ASSERT_EQ(numbers.size(), 3U);
+    EXPECT_NEAR(numbers.at("0.2").x, area.left + 0.75 * area.width, 1);
+    EXPECT_NEAR(numbers.at("0.2").y, area.top + 0.25 * area.height, 6);
+    EXPECT_LT(numbers.at("0.1").x, area.left + 0.5 * area.width);
+    EXPECT_GT(numbers.at("0.1").y, area.top + 0.5 * area.height);
+}
+
+// Thirty coordinates: 435 numbers that are legible and do not touch each other.
+TEST(PairTable, IsLegibleForThirtyCoordinates) {
+    PairTable table{.title = "T", .dimension = 30};
+    for (int k = 0; k < 435; ++k) table.values.push_back(0.05 + 0.0005 * k);
+    PictureStyle style;
+    const Drawing drawing = fitted(
+        style, [&](const PictureStyle& s) { return draw_pair_table(table, 0.2675, true, s); });
+    std::size_t numbers = 0;
+    for (const Label* label : shapes_of<Label>(drawing)) {
+        EXPECT_GE(label->size, 7);
+        numbers += label->size < 11 ? 1 : 0;
+    }
+    EXPECT_EQ(numbers, 435U);
+    EXPECT_THAT(svg_bytes(drawing, 1), HasSubstr("numbers ×10⁻²"));
 }
 
 }  // namespace stipple::testing::chart_test

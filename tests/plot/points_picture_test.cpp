@@ -192,6 +192,36 @@ TEST(PointsPicture, PairsOfManyPointsAreDensitiesInOneScale) {
     EXPECT_GT(darkest(5), 180);  // none does
 }
 
+// 1, 10 and 100 on a logarithmic axis are at its start, middle and end; x and y have no common scale.
+TEST(PointsPicture, LogarithmicAxesAreEvenInPowers) {
+    const PointSet points = points_of({{1, 1}, {10, 2}, {100, 3}});
+    PointsPicture picture = picture_of({&points});
+    picture.log = {true, false};
+    const auto marks = marks_of(draw_points(picture, {}, {}));
+    ASSERT_EQ(marks.size(), 3U);
+    EXPECT_NEAR(marks[1].x - marks[0].x, marks[2].x - marks[1].x, 0.01);
+    EXPECT_NEAR(marks[0].y - marks[1].y, marks[1].y - marks[2].y, 0.01);
+    EXPECT_NEAR(marks[2].x - marks[0].x, marks[0].y - marks[2].y, 2);  // a square
+    EXPECT_TRUE(is_positive(picture.sets, 0));
+    const PointSet zero = points_of({{0, 1}, {10, 2}});
+    EXPECT_FALSE(is_positive({{&zero}}, 0));
+    // A histogram has bins of equal width on the axis, and counts each value.
+    const Chart chart = histogram_chart(picture);
+    const Bars& bars = chart.panels[0].bars[0];
+    EXPECT_TRUE(chart.panels[0].log_x);
+    EXPECT_NEAR(bars.edges[1] / bars.edges[0], bars.edges[2] / bars.edges[1], 1e-9);
+    double sum = 0;
+    for (std::size_t i = 0; i < bars.heights.size(); ++i)
+        sum += bars.heights[i] * std::log(bars.edges[i + 1] / bars.edges[i]);
+    EXPECT_NEAR(sum, 1, 1e-9);
+    // Three coordinates are drawn as pairs then, as a view in space has linear axes.
+    const PointSet three = points_of({{1, 1, 1}, {10, 2, 2}, {100, 3, 3}});
+    PointsPicture space = picture_of({&three});
+    EXPECT_TRUE(is_space(space));
+    space.log = {true, false, false};
+    EXPECT_EQ(marks_of(draw_points(space, {}, {})).size(), 9U);
+}
+
 TEST(PointsPicture, NoTextLeavesThePicture) {
     const PointSet wide = points_of({{0, 0}, {100000.5, 1}});
     const PointSet five = make("random", {100, 5});
@@ -324,7 +354,7 @@ TEST(TextPicture, DrawsInAnyRoom) {
             EXPECT_FALSE(
                 points_as_text(picture_of({set}), {.columns = columns, .rows = 0}).empty());
     const Grid power{.rows = 9, .columns = 9, .values = std::vector<double>(81, 1.0)};
-    EXPECT_THAT(spectrum_as_text(power, "t", {.columns = 30, .rows = 20}), HasSubstr("▒▒"));
+    EXPECT_THAT(spectrum_as_text(power, {.columns = 30, .rows = 20}), HasSubstr("▒▒"));
 }
 
 }  // namespace stipple::testing::points_picture_test

@@ -51,8 +51,8 @@ TEST(StudyChart, DrawsMeansWithTheirIntervalsAndSlopes) {
     EXPECT_TRUE(panel.log_x && panel.log_y);
     EXPECT_EQ(panel.y_name, "star discrepancy");
     ASSERT_EQ(panel.series.size(), 2U);
-    EXPECT_EQ(panel.series[0].name, "a (slope −1.00)");
-    EXPECT_EQ(panel.series[1].name, "b (slope −0.50)");
+    EXPECT_EQ(panel.series[0].name, "a (slope −1.00 ± 0.00)");
+    EXPECT_EQ(panel.series[1].name, "b (slope −0.50 ± 0.00)");
     EXPECT_THAT(panel.series[0].x, ElementsAre(16, 64, 256));
     EXPECT_THAT(panel.series[0].y, ElementsAre(3.0 / 16, 3.0 / 64, 3.0 / 256));
     EXPECT_DOUBLE_EQ(panel.series[1].low[0], 0.45);
@@ -60,18 +60,23 @@ TEST(StudyChart, DrawsMeansWithTheirIntervalsAndSlopes) {
 }
 
 // 1, 2 and 6 over 2, 4 and 8 points: u = ln n = (1, 2, 3) ln 2, v = ln y = 0, ln 2, ln 6; the slope is
-// (v3 - v1) / (2 ln 2) = ln 6 / ln 4.
+// (v3 - v1) / (2 ln 2) = ln 6 / ln 4. The residuals are r, -2 r and r with r = ln(3/2) / 6, so the
+// standard error is sqrt(6 r^2 / 2) / ln 2 = 0.169.
 TEST(StudyChart, SlopesAreThoseOfLeastSquares) {
     std::vector<MeanRow> means;
     for (const auto& [n, mean] : {std::pair{2, 1.0}, {4, 2.0}, {8, 6.0}}) {
         means.push_back(mean_at(static_cast<std::uint64_t>(n), 1, 0));
         means.back().mean = mean;
     }
-    EXPECT_EQ(study_chart(means).chart.panels[0].series[0].name, "a (slope 1.29)");
+    EXPECT_EQ(study_chart(means).chart.panels[0].series[0].name, "a (slope 1.29 ± 0.17)");
     means[1].mean = 0;
     EXPECT_EQ(study_chart(means).chart.panels[0].series[0].name, "a");
     EXPECT_FALSE(study_chart(means).chart.panels[0].log_y);
     means.resize(2);
+    EXPECT_EQ(study_chart(means).chart.panels[0].series[0].name, "a");
+    means[1].mean = 2;  // two values leave no residual, and so no error
+    EXPECT_EQ(study_chart(means).chart.panels[0].series[0].name, "a (slope 1.00)");
+    means.resize(1);
     EXPECT_EQ(study_chart(means).chart.panels[0].series[0].name, "a");
 }
 
@@ -110,10 +115,11 @@ TEST(StudyChart, EachPanelHasItsOwnSlopes) {
                 if (label->text.find("slope") != std::string::npos)
                     legend.emplace_back(label->text, line->colour);
     const auto colour = [](std::size_t i) { return light_theme.series_colour(i); };
-    const std::vector<std::pair<std::string, Colour>> expected = {{"a (slope −1.00)", colour(0)},
-                                                                  {"b (slope −0.50)", colour(1)},
-                                                                  {"b (slope −2.00)", colour(1)},
-                                                                  {"c (slope −0.25)", colour(2)}};
+    const std::vector<std::pair<std::string, Colour>> expected = {
+        {"a (slope −1.00 ± 0.00)", colour(0)},
+        {"b (slope −0.50 ± 0.00)", colour(1)},
+        {"b (slope −2.00 ± 0.00)", colour(1)},
+        {"c (slope −0.25 ± 0.00)", colour(2)}};
     EXPECT_EQ(legend, expected);
 }
 

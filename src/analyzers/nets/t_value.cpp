@@ -294,6 +294,7 @@ Analyzer unit() {
                      "smallest number of coordinates of a projection whose t equals that of all "
                      "coordinates"},
                     {"projections.worst", "coordinates, from 1, of all such projections"}},
+        .curves = {{"projections.t_2d", "", "", "quality parameter t"}},
         .part = PagePart::gaps,
         .page = {{"t-value", {{"t", "t-value in base 2"}}}},
         .analyze = analyze};

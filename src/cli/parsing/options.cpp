@@ -328,6 +328,8 @@ const std::vector<Row> rows = {
     {"--overlay", "", "",
      "draw several sets of points in one frame, in colours; default: one frame per set", plot,
      &PlotRequest::overlay},
+    {"--letters", "", "", "letters (a), (b), ... for several frames or panels", plot,
+     &PlotRequest::letters},
     {"--draw", "cells,gap,grid=CxR", "",
      "also draw the Voronoi cells of points in the plane, their largest empty circle, or C x R "
      "equal cells, such as strata: grid=8x4",

@@ -140,6 +140,7 @@ struct PlotRequest : Sources {
     std::optional<std::string> key = {};
     std::optional<std::uint64_t> set = {};
     bool overlay = false;
+    bool letters = false;
     std::vector<std::string> draw = {};
     std::optional<std::string> title = {};
     std::vector<std::string> labels = {};

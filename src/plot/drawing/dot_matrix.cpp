@@ -67,7 +67,7 @@ std::string framed(const DotMatrix& dots, const TextFrame& frame) {
     const std::size_t rows = dots.height() / 4;
     const auto length = [](const std::string& text) { return code_points(text).size(); };
     const std::size_t side = std::max(length(frame.low_y), length(frame.high_y));
-    std::string text = frame.title.empty() ? "" : printable(frame.title) + "\n";
+    std::string text;
     if (!frame.name_y.empty()) text += fmt::format("{:{}} {}\n", "", side, frame.name_y);
     text += fmt::format("{:{}} ┌{:─<{}}┐\n", "", side, "", columns);
     for (std::size_t i = 0; i < rows; ++i) {

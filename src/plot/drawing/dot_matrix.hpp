@@ -48,9 +48,8 @@ std::string in_colour(const std::string& text, std::size_t pen, bool coloured);
 /// Number of characters in a line of text, without colour codes.
 std::size_t shown_width(std::string_view line);
 
-/// Decoration of a field: a title above, names and ranges of the axes below and on the left.
+/// Decoration of a field: names and ranges of the axes below and on the left.
 struct TextFrame {
-    std::string title = {};
     std::string low_x = {}, high_x = {}, name_x = {};
     std::string low_y = {}, high_y = {}, name_y = {};
     std::vector<std::string> beside = {};  ///< text to the right of each row; may be empty

@@ -179,6 +179,14 @@ inline constexpr Colour dark_series[] = {{86, 180, 233},  {240, 128, 48}, {26, 1
                                          {222, 150, 190}, {240, 190, 60}, {110, 140, 255},
                                          {245, 245, 245}};
 
+/// Colour for a share of the largest value: from the background through the first series' colour to
+/// the ink.
+inline Colour shade_of(const Theme& theme, double share) {
+    const Colour middle = theme.series[0];
+    return share < 0.6 ? mixed(theme.background, middle, share / 0.6)
+                       : mixed(middle, theme.ink, (share - 0.6) / 0.4);
+}
+
 inline constexpr Theme light_theme{.background = {255, 255, 255},
                                    .ink = {26, 26, 26},
                                    .text = {64, 64, 64},

@@ -132,6 +132,9 @@ void add_accent(std::vector<std::vector<Position>>& strokes, char32_t letter) {
     }
 }
 
+/// Width of most texts in DejaVu Sans relative to Helvetica.
+double wider(bool bold) { return bold ? 1.3 : 1.16; }
+
 }  // namespace
 
 std::optional<char32_t> lowered(char32_t letter) {
@@ -164,10 +167,20 @@ double text_width(std::string_view text, double size) {
     return units * size / em_units;
 }
 
-std::vector<std::string> wrapped(std::string_view text, double size, double width) {
+Area room_of(const Label& label) {
+    const double width = text_width(label.text, label.size) * wider(label.bold);
+    const double share = label.anchor == Anchor::start ? 0 : label.anchor == Anchor::end ? 1 : 0.5;
+    const auto [x, y] = label.at;
+    constexpr double ascent = 0.76;
+    const double height = label.size;
+    if (label.upward) return {x - ascent * height, y - (1 - share) * width, height, width};
+    return {x - share * width, y - ascent * height, width, height};
+}
+
+std::vector<std::string> wrapped(std::string_view text, double size, double width, bool bold) {
     constexpr std::u32string_view breaks = U" _-/,.:;=";
     const std::u32string letters = code_points(text);
-    const double room = width * em_units / size;
+    const double room = width * em_units / (size * wider(bold));
     std::vector<std::string> lines;
     for (std::size_t first = 0; first < letters.size();) {
         double used = 0;
@@ -176,7 +189,9 @@ std::vector<std::string> wrapped(std::string_view text, double size, double widt
         for (; end < letters.size(); ++end) {
             used += advance_of(letters[end]);
             if (used > room && letters[end] != U' ' && end > first) break;
-            if (breaks.find(letters[end]) != std::u32string_view::npos) good = end + 1;
+            const bool point = end + 1 < letters.size() && letters[end] == U'.' &&
+                               letters[end + 1] >= U'0' && letters[end + 1] <= U'9';
+            if (!point && breaks.find(letters[end]) != std::u32string_view::npos) good = end + 1;
         }
         const std::size_t next = end < letters.size() && good > first ? good : end;
         const std::string line = utf8_of(std::u32string_view(letters).substr(first, next - first));

@@ -32,9 +32,14 @@ std::vector<std::vector<Position>> strokes_of(char32_t letter);
 /// Width of a line of text at this font size.
 double text_width(std::string_view text, double size);
 
-/// Wraps text to lines of at most this width, after blanks and signs such as - and /; longer words
-/// are broken anywhere.
-std::vector<std::string> wrapped(std::string_view text, double size, double width);
+/// Space that a label may take, in fonts that are as wide as DejaVu Sans, by which viewers of SVG
+/// replace Helvetica.
+Area room_of(const Label& label);
+
+/// Wraps text to lines of at most this width, also in wider fonts, after blanks and signs such as -
+/// and /, not within decimal numbers; longer words are broken anywhere.
+std::vector<std::string> wrapped(std::string_view text, double size, double width,
+                                 bool bold = false);
 
 /// Adds a label with several lines, the last of them at the label's position; the others are above
 /// or, if upward, to the left.

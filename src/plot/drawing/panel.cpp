@@ -75,9 +75,9 @@ double room_of_numbers(const Ticks& ticks) {
     return rows * number_row;
 }
 
-/// The axis's name wrapped to the axis's length, with a small tolerance.
+/// The axis's name wrapped to the axis's length.
 std::vector<std::string> rows_of_name(const Axis& axis, const Ticks& ticks, double length) {
-    return wrapped(full_name(axis, ticks), name_size, length + 6);
+    return wrapped(full_name(axis, ticks), name_size, length);
 }
 
 /// Height of the name's rows, plus `space` before them; 0 if no name is drawn.
@@ -283,6 +283,7 @@ void draw_colour_bar(Drawing& drawing, const Area& area, const std::string& name
                           .size = number_size,
                           .colour = theme.text});
     }
+    if (name.empty()) return;
     drawing.add(Label{.text = name,
                       .at = {right, area.top - 8},
                       .size = number_size,

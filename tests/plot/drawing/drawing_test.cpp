@@ -195,12 +195,14 @@ TEST(Letters, CurvesAreEllipses) {
 TEST(Letters, LongTextsAreWrapped) {
     EXPECT_THAT(wrapped("abc", 12, 100), ElementsAre("abc"));
     EXPECT_THAT(wrapped("", 12, 100), ElementsAre());
-    EXPECT_THAT(wrapped("one two three", 12, text_width("one two", 12)),
-                ElementsAre("one two", "three"));
-    EXPECT_THAT(wrapped("outer_diameter", 12, text_width("outer_dia", 12)),
+    const auto width_of = [](const char* text) {
+        return room_of({.text = text, .at = {}, .size = 12}).width;
+    };
+    EXPECT_THAT(wrapped("one two three", 12, width_of("one two")), ElementsAre("one two", "three"));
+    EXPECT_THAT(wrapped("outer_diameter", 12, width_of("outer_dia")),
                 ElementsAre("outer_", "diameter"));
-    EXPECT_THAT(wrapped("temperature", 12, text_width("temper", 12)),
-                ElementsAre("temper", "ature"));
+    EXPECT_THAT(wrapped("temperature", 12, width_of("temper")), ElementsAre("temper", "ature"));
+    EXPECT_THAT(wrapped("slope 0.125", 12, width_of("slope 0.12")), ElementsAre("slope", "0.125"));
     EXPECT_THAT(wrapped("üü", 12, 1), ElementsAre("ü", "ü"));
     for (double width = 1; width < 300; width += 7) {
         std::string all;

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include "plot/figure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "plot/drawing/letters.hpp"
+#include "plot/drawing/sheet.hpp"
+
+namespace stipple::plot {
+namespace {
+
+/// Whether the texts are within the drawing, and whether none covers another.
+struct Legibility {
+    bool inside = true;
+    bool apart = true;
+
+    explicit Legibility(const Drawing& drawing) {
+        std::vector<Area> texts;
+        for (const Shape& shape : drawing.shapes) {
+            const auto* label = std::get_if<Label>(&shape);
+            if (label == nullptr) continue;
+            const Area a = room_of(*label);
+            inside = inside && a.left >= 0 && a.top >= 0 && a.right() <= drawing.width &&
+                     a.bottom() <= drawing.height;
+            apart = apart && std::ranges::none_of(texts, [&](const Area& b) {
+                        constexpr double slack = 3;  // space around letters
+                        return std::min(a.right(), b.right()) - std::max(a.left, b.left) > slack &&
+                               std::min(a.bottom(), b.bottom()) - std::max(a.top, b.top) > slack;
+                    });
+            texts.push_back(a);
+        }
+    }
+};
+
+/// Rejects the requested size, naming one at which letters have the scale `least`.
+[[noreturn]] void refuse_size(const PictureStyle& asked, const PictureStyle& fits, double least) {
+    const char* names[] = {"width", "height"};
+    const double sizes[] = {asked.width, asked.height};
+    const double needed[] = {fits.width, fits.height};
+    std::vector<std::string> given, enough;
+    for (int k = 0; k < 2; ++k)
+        if (sizes[k] > 0) {
+            given.push_back(fmt::format("--{}: {:.0f}", names[k], sizes[k] * asked.scale));
+            enough.push_back(fmt::format("{:.0f}", std::ceil(needed[k] * least)));
+        }
+    const bool both = given.size() == 2;
+    fail(ErrorKind::usage, "{} {} no room for the picture; at least {} {}", join(given, " and "),
+         both ? "leave" : "leaves", join(enough, " and "), both ? "do" : "does");
+}
+
+/// Arrangement of frames on a sheet.
+struct Places {
+    std::size_t columns;
+    double across;  ///< number of columns
+    double rows;
+    double usual;  ///< usual width and height of a frame
+    double more;   ///< additional width of the last frame in each row, for a colour bar
+
+    Places(std::span<const Frame> frames, const PictureStyle& style)
+        : columns(sheet_columns(
+              frames.size(), style.width > 0 && style.height > 0 ? style.width / style.height : 0)),
+          across(static_cast<double>(columns)),
+          rows(std::ceil(static_cast<double>(frames.size()) / across)),
+          usual(columns <= 2   ? 400
+                : columns == 3 ? 330
+                               : 280),
+          more(std::ranges::any_of(frames, &Frame::bar) ? colour_bar_room - picture_margin / 2
+                                                        : 0) {}
+
+    [[nodiscard]] double usual_width() const { return usual * across + more; }
+};
+
+/// Arranges the frames below the title of the style.
+Drawing sheet_of(std::span<const Frame> frames, PictureStyle style) {
+    constexpr double least_width = 150;
+    constexpr double least_height = 200;
+    const Places places(frames, style);
+    const bool untitled = style.title.value_or("").empty();
+    PictureStyle titles = style;
+    titles.letter.reset();
+    auto [drawing, top] = titled_drawing("", "", titles, places.usual_width());
+    if (untitled) top = 0;
+    if (!style.title || !untitled) style.title.reset();  // frames have their own titles
+    const double width =
+        std::max(std::floor((drawing.width - places.more) / places.across), least_width);
+    if (style.height > 0)
+        style.height = std::max(std::floor((style.height - top) / places.rows), least_height);
+    std::vector<Drawing> drawn;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const bool last = i + 1 == frames.size() || (i + 1) % places.columns == 0;
+        style.width = width + (last ? places.more : 0);
+        drawn.push_back(frames[i].draw(style, last));
+        if (style.letter) *style.letter += frames[i].panels;
+    }
+    add_rows(drawing, std::move(drawn), places.columns, top);
+    return std::move(drawing);
+}
+
+/// Chooses the scale at which frames of the usual size fit the requested size.
+void fit_to_frames(std::span<const Frame> frames, PictureStyle& style) {
+    const double across = style.width * style.scale;
+    const double upward = style.height * style.scale;
+    if (!(across > 0 || upward > 0)) return;
+    constexpr double least = 0.6;
+    const Places places(frames, style);
+    const double scale = std::min(across > 0 ? across / places.usual_width() : HUGE_VAL,
+                                  upward > 0 ? upward / (places.usual * places.rows) : HUGE_VAL);
+    style.scale = std::max(least, scale);
+    style.width = across / style.scale;
+    style.height = upward / style.scale;
+}
+
+/// Removes the letter of a single panel.
+void take_letters(std::span<const Frame> frames, PictureStyle& style) {
+    if (frames.size() == 1 && frames[0].panels == 1) style.letter.reset();
+}
+
+}  // namespace
+
+Drawing fitted(PictureStyle& style, const std::function<Drawing(const PictureStyle&)>& draw) {
+    constexpr double step = 0.85;
+    constexpr double least = 0.5;  // smallest scale with legible letters
+    constexpr int most = 12;
+    const PictureStyle asked = style;
+    std::optional<std::pair<Drawing, PictureStyle>> crowded;  // the first where only texts overlap
+    for (int round = 0;; ++round) {
+        Drawing drawing = draw(style);
+        const Legibility text(drawing);
+        const auto within = [](double size, double room) { return room <= 0 || size <= room; };
+        const bool fits = within(drawing.width, style.width) &&
+                          within(drawing.height, style.height) && text.inside;
+        const bool small = style.scale < least;
+        if (fits && text.apart && !small) return drawing;
+        if (fits && !crowded) crowded.emplace(drawing, style);
+        if ((small || round == most) && crowded && crowded->second.scale >= least) {
+            style = crowded->second;
+            return std::move(crowded->first);
+        }
+        if ((small && fits) || round == most) refuse_size(asked, style, least);
+        if (asked.width > 0 || asked.height > 0) {
+            style.scale *= step;
+            style.height /= step;
+            style.width /= step;
+        } else {
+            style.width = std::ceil(drawing.width / step);
+        }
+    }
+}
+
+Drawing draw_figure(std::span<const Frame> frames, PictureStyle& style) {
+    take_letters(frames, style);
+    const bool single = frames.size() == 1;
+    if (!single) fit_to_frames(frames, style);
+    Drawing drawing = fitted(style, [&](const PictureStyle& s) {
+        return single ? frames[0].draw(s, true) : sheet_of(frames, s);
+    });
+    fill_height(drawing, style.height);
+    return drawing;
+}
+
+std::string figure_as_text(std::span<const Frame> frames, PictureStyle style,
+                           const TextRoom& room) {
+    take_letters(frames, style);
+    const auto line = [](const std::string& title) {
+        return title.empty() ? "" : printable(title) + "\n";
+    };
+    const bool single = frames.size() == 1;
+    const std::string title = line(style.title.value_or(single ? frames[0].title : ""));
+    TextRoom part = single ? room : shared_room(room, frames.size());
+    part.letter = style.letter;
+    if (single) return title + frames[0].write(part);
+    std::vector<std::string> written;
+    for (const Frame& frame : frames) {
+        const bool untitled = style.title && style.title->empty();
+        written.push_back(line((frame.panels == 1 ? letter_of(part.letter) : "") +
+                               (untitled ? "" : frame.title)) +
+                          frame.write(part));
+        if (part.letter) *part.letter += frame.panels;
+    }
+    return title + side_by_side(written, room);
+}
+
+}  // namespace stipple::plot
