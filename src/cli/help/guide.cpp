@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cli/help/plain_page.hpp"
+#include "core/bytes/compression.hpp"
 #include "core/text.hpp"
 
 namespace stipple::cli {
@@ -26,9 +27,8 @@ constexpr std::string_view peers_page = "coming-from";
 /// Page that lists the other ones, in groups.
 constexpr std::string_view index_page = "index";
 
-std::string_view text_of(std::string_view name) {
-    return std::ranges::find_if(guide(), [&](const GuidePage& page) { return page.name == name; })
-        ->text;
+std::string_view text_of(const std::vector<GuidePage>& pages, std::string_view name) {
+    return std::ranges::find(pages, name, &GuidePage::name)->text;
 }
 
 /// Whether the text contains `word` as a whole word: not next to a letter, digit or underscore.
@@ -74,7 +74,7 @@ std::vector<std::string> terms_of(std::string_view paragraph) {
 /// Paragraphs of the glossary, each with its terms.
 std::vector<std::pair<std::vector<std::string>, std::string_view>> glossary() {
     std::vector<std::pair<std::vector<std::string>, std::string_view>> found;
-    std::string_view rest = text_of("glossary");
+    std::string_view rest = text_of(guide(), "glossary");
     while (!rest.empty()) {
         const auto end = std::min(rest.find("\n\n"), rest.size());
         const std::string_view paragraph = rest.substr(0, end);
@@ -88,7 +88,7 @@ std::vector<std::pair<std::vector<std::string>, std::string_view>> glossary() {
 
 std::vector<TopicGroup> topic_groups() {
     std::vector<TopicGroup> groups;
-    for (const auto line : split(text_of(index_page), '\n')) {
+    for (const auto line : split(text_of(guide(), index_page), '\n')) {
         if (line.starts_with("## ")) groups.push_back({std::string(line.substr(3)), {}});
         const auto link = line.find("](");
         if (groups.empty() || !line.starts_with("- [") || link == line.npos) continue;
@@ -118,13 +118,33 @@ std::string glossary_entry(std::string_view word) {
     return {};
 }
 
+const std::vector<GuidePage>& guide() {
+    static const std::string text = [] {
+        auto [bytes, size] = compressed_topics();
+        std::string all(size, '\0');
+        Decompressor(
+            Compression::zstd, [&] { return std::exchange(bytes, {}); }, "guide")
+            .read(all);
+        return all;
+    }();
+    static const auto pages = [] {
+        std::vector<GuidePage> found;
+        for (const auto page : split(std::string_view(text).substr(1), '\1')) {
+            const auto end = page.find('\n');
+            found.push_back({page.substr(0, end), page.substr(end + 1)});
+        }
+        return found;
+    }();
+    return pages;
+}
+
 const std::vector<Topic>& topics() {
     static const auto all = [] {
         std::vector<Topic> found;
         for (const GuidePage& page : guide())
-            if (!std::string_view(page.name).starts_with("verbs/") && page.name != peers_page &&
-                page.name != index_page)
-                found.push_back({page.name, heading_of(page.text), plain_page(page.text)});
+            if (page.name != peers_page && page.name != index_page)
+                found.push_back(
+                    {std::string(page.name), heading_of(page.text), plain_page(page.text)});
         return found;
     }();
     return all;
@@ -139,7 +159,7 @@ std::string coming_from(std::string_view name) {
     std::string found;
     std::string heading;
     bool all = false;
-    for (const auto line : split(text_of(peers_page), '\n')) {
+    for (const auto line : split(text_of(guide(), peers_page), '\n')) {
         if (line.starts_with("## ")) {
             heading = line.substr(3);
             all = word == peers_page || has_word(lower_case(heading), word);
@@ -157,7 +177,7 @@ std::string coming_from(std::string_view name) {
 }
 
 VerbPage verb_page(const std::string& verb) {
-    const std::string_view all = text_of("verbs/" + verb);
+    const std::string_view all = text_of(verb_pages(), "verbs/" + verb);
     const std::string_view usage = all.substr(all.find("\n\n    ") + 2);
     const std::string_view rest = usage.substr(usage.find("\n\n"));
     constexpr std::string_view examples = "\n\n## Examples\n\n";

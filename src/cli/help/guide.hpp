@@ -3,6 +3,7 @@
 // Pages of data/guide, embedded in the program: one file per topic, and verbs/VERB.md for --help.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,11 +11,21 @@
 namespace stipple::cli {
 
 struct GuidePage {
-    const char* name;  ///< such as "formats" or "verbs/plot"
-    const char* text;
+    std::string_view name;  ///< such as "formats" or "verbs/plot"
+    std::string_view text;
 };
 
-/// All pages, sorted by name.
+const std::vector<GuidePage>& verb_pages();
+
+struct CompressedText {
+    std::string_view bytes;
+    std::size_t size;  ///< of the text
+};
+
+/// All other pages: for each, a byte 1, a line with its name, and its text.
+CompressedText compressed_topics();
+
+/// All pages except those of verbs, sorted by name.
 const std::vector<GuidePage>& guide();
 
 /// A topic of `stipple help TOPIC`.

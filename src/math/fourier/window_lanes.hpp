@@ -211,7 +211,10 @@ STIPPLE_INLINE void add_window(
 
 template <std::size_t Dimension, std::size_t Fours>
 void add_all(std::span<const double> rows, const SpreadTile& tile, double* buffer) {
-    thread_local Chunk<Dimension, Fours> work;  // its margins stay 0
+    // Allocated once a thread, when it is needed: as a thread-local object it would take room in every
+    // thread of the program, and time when one starts. Its margins stay 0.
+    thread_local const auto allocated = std::make_unique<Chunk<Dimension, Fours>>();
+    Chunk<Dimension, Fours>& work = *allocated;
     const std::size_t numbers = tile.numbers;
     const std::size_t all = rows.size() / numbers;
     for (std::size_t first = 0; first < all; first += chunk) {

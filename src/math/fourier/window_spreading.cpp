@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 #include <utility>
 
 // The ABI of vectors does not matter here: they are passed only between inlined functions.
