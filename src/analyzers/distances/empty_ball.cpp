@@ -234,6 +234,23 @@ class Search {
     std::uint64_t judged_ = 0;
 };
 
+}  // namespace
+
+EmptyBall bounded_empty_ball(const PointSet& points, const Distances& distances,
+                             const BallSearch& search, const RunContext& run) {
+    return Search(points, distances, search, run).find();
+}
+
+EmptyBall largest_empty_ball(const PointSet& points, const Distances& distances,
+                             const BallSearch& search, const RunContext& run) {
+    if (points.dimension() == 1) return widest_gap(points, distances, run);
+    if (points.dimension() == 2) return planar_empty_ball(points, distances, run);
+    return bounded_empty_ball(points, distances, search, run);
+}
+
+// The largest empty ball of the plane; its centre is a corner of the Voronoi cells.
+namespace {
+
 double squared_length(const Vec2& v) { return v.x * v.x + v.y * v.y; }
 
 /// Recomputes a corner from the neighbours beyond its two edges, with higher accuracy than the
@@ -310,7 +327,8 @@ double inside(const Distances& distances, std::size_t k, double x) {
     return std::clamp(x, box.low[k], box.high[k]);
 }
 
-/// The largest empty ball of the plane; its centre is a corner of the Voronoi cells.
+}  // namespace
+
 EmptyBall planar_empty_ball(const PointSet& points, const Distances& distances,
                             const RunContext& run) {
     const PlanarSites sites =
@@ -341,15 +359,6 @@ EmptyBall planar_empty_ball(const PointSet& points, const Distances& distances,
     }
     run.tick(1, 1);
     return best;
-}
-
-}  // namespace
-
-EmptyBall largest_empty_ball(const PointSet& points, const Distances& distances,
-                             const BallSearch& search, const RunContext& run) {
-    if (points.dimension() == 1) return widest_gap(points, distances, run);
-    if (points.dimension() == 2) return planar_empty_ball(points, distances, run);
-    return Search(points, distances, search, run).find();
 }
 
 }  // namespace stipple::analyzers

@@ -47,4 +47,12 @@ struct BallSearch {
 EmptyBall largest_empty_ball(const PointSet& points, const Distances& distances,
                              const BallSearch& search, const RunContext& run);
 
+/// Uses branch and bound for any d.
+EmptyBall bounded_empty_ball(const PointSet& points, const Distances& distances,
+                             const BallSearch& search, const RunContext& run);
+
+/// Largest empty ball for d = 2.
+EmptyBall planar_empty_ball(const PointSet& points, const Distances& distances,
+                            const RunContext& run);
+
 }  // namespace stipple::analyzers

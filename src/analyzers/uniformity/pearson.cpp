@@ -206,6 +206,64 @@ Tails chi_square_tails(double statistic, double freedom) {
 
 namespace {
 
+std::optional<double> exact_tail(double statistic, const Fit& fit) {
+    if (fit.equal) return exact_lower_tail(statistic, fit.points, fit.groups);
+    if (fit.expected.empty()) return std::nullopt;
+    return exact_lower_tail(statistic, fit.points, fit.expected);
+}
+
+}  // namespace
+
+Tails count_tails(double statistic, const Fit& fit) {
+    Tails tails = chi_square_tails(statistic, fit.freedom());
+    if (const auto exact = exact_tail(statistic, fit)) {
+        tails.lower = *exact;
+        tails.exact = true;
+        return tails;
+    }
+    const auto all = static_cast<std::size_t>(fit.groups - 1);
+    double mixed = 0;
+    for (std::size_t s = 1; s <= fit.modal_probabilities.size(); ++s) {
+        const auto others = static_cast<double>(all - s);
+        mixed += fit.modal_probabilities[s - 1] *
+                 (s < all ? chi_square_tails(statistic, others).lower : 1);
+    }
+    const double whole = fit.modal_probabilities.size() == all ? fit.modal_probabilities.back() : 0;
+    tails.lower =
+        std::min(1.0, std::max({tails.lower + tails.upper * whole, mixed, fit.most_even}));
+    return tails;
+}
+
+double sidak(double p, double tests) { return p < 1 ? 0 - exp_minus_1(tests * log_1p(-p)) : 1; }
+
+double p_value_of(const Tails& plain, const Tails* second) {
+    const double p = plain.two_sided();
+    return second ? sidak(std::min(p, second->two_sided()), 2) : p;
+}
+
+Tails sidak(std::span<const Tails> tests) {
+    Tails least;
+    for (const Tails& t : tests) {
+        least.upper = std::min(least.upper, t.upper);
+        least.lower = std::min(least.lower, t.lower);
+    }
+    const auto count = static_cast<double>(tests.size());
+    return {.upper = sidak(least.upper, count), .lower = sidak(least.lower, count)};
+}
+
+Tails fisher(std::span<const Tails> tests) {
+    constexpr double least = std::numeric_limits<double>::min();
+    double upper = 0;
+    double lower = 0;
+    for (const Tails& t : tests) {
+        upper -= 2 * logarithm(std::max(t.upper, least));
+        lower -= 2 * logarithm(std::max(t.lower, least));
+    }
+    const double freedom = 2 * static_cast<double>(tests.size());
+    return {.upper = chi_square_tails(upper, freedom).upper,
+            .lower = chi_square_tails(lower, freedom).upper};
+}
+
 // Probability that Pearson's statistic of n independent points is at most a given value, summed
 // over all counts with such a statistic: exact, if there are few enough to enumerate.
 //
@@ -228,6 +286,8 @@ namespace {
 //         Returns nullopt if there may be more than some millions, which take milliseconds.
 // Promise sums of positive terms, with a relative error of about 1e-12; equal statistics are
 //         included.
+
+namespace {
 
 constexpr double most_steps = 2e6;
 constexpr double tie = 1e-12;  ///< tolerance for statistics that differ only by rounding
@@ -356,8 +416,8 @@ class UnequalCounts {
     std::vector<double> behind_;  ///< sum of the expectations of later groups
 };
 
-/// Probability that the statistic of n independent points is at most `statistic`, for at most n
-/// groups of equal probability; nullopt if it would take too long.
+}  // namespace
+
 std::optional<double> exact_lower_tail(double statistic, std::uint64_t n, std::uint64_t groups) {
     const auto k = static_cast<double>(groups);
     const auto rest = static_cast<double>(n % groups);
@@ -375,72 +435,12 @@ std::optional<double> exact_lower_tail(double statistic, std::uint64_t n, std::u
     return std::min(1.0, sum * exponential(ways));
 }
 
-/// The same probability for two or more groups with the given expected numbers of points, whose sum
-/// is n.
 std::optional<double> exact_lower_tail(double statistic, std::uint64_t n,
                                        std::span<const double> expected) {
     const UnequalCounts counts(expected);
     if (!(counts.most(statistic) < most_steps)) return std::nullopt;
     const double least = std::min(tie, 0.01 / static_cast<double>(n));
     return std::min(1.0, counts.chance(0, n, statistic * (1 + tie) + least));
-}
-
-std::optional<double> exact_tail(double statistic, const Fit& fit) {
-    if (fit.equal) return exact_lower_tail(statistic, fit.points, fit.groups);
-    if (fit.expected.empty()) return std::nullopt;
-    return exact_lower_tail(statistic, fit.points, fit.expected);
-}
-
-}  // namespace
-
-Tails count_tails(double statistic, const Fit& fit) {
-    Tails tails = chi_square_tails(statistic, fit.freedom());
-    if (const auto exact = exact_tail(statistic, fit)) {
-        tails.lower = *exact;
-        tails.exact = true;
-        return tails;
-    }
-    const auto all = static_cast<std::size_t>(fit.groups - 1);
-    double mixed = 0;
-    for (std::size_t s = 1; s <= fit.modal_probabilities.size(); ++s) {
-        const auto others = static_cast<double>(all - s);
-        mixed += fit.modal_probabilities[s - 1] *
-                 (s < all ? chi_square_tails(statistic, others).lower : 1);
-    }
-    const double whole = fit.modal_probabilities.size() == all ? fit.modal_probabilities.back() : 0;
-    tails.lower =
-        std::min(1.0, std::max({tails.lower + tails.upper * whole, mixed, fit.most_even}));
-    return tails;
-}
-
-double sidak(double p, double tests) { return p < 1 ? 0 - exp_minus_1(tests * log_1p(-p)) : 1; }
-
-double p_value_of(const Tails& plain, const Tails* second) {
-    const double p = plain.two_sided();
-    return second ? sidak(std::min(p, second->two_sided()), 2) : p;
-}
-
-Tails sidak(std::span<const Tails> tests) {
-    Tails least;
-    for (const Tails& t : tests) {
-        least.upper = std::min(least.upper, t.upper);
-        least.lower = std::min(least.lower, t.lower);
-    }
-    const auto count = static_cast<double>(tests.size());
-    return {.upper = sidak(least.upper, count), .lower = sidak(least.lower, count)};
-}
-
-Tails fisher(std::span<const Tails> tests) {
-    constexpr double least = std::numeric_limits<double>::min();
-    double upper = 0;
-    double lower = 0;
-    for (const Tails& t : tests) {
-        upper -= 2 * logarithm(std::max(t.upper, least));
-        lower -= 2 * logarithm(std::max(t.lower, least));
-    }
-    const double freedom = 2 * static_cast<double>(tests.size());
-    return {.upper = chi_square_tails(upper, freedom).upper,
-            .lower = chi_square_tails(lower, freedom).upper};
 }
 
 }  // namespace stipple::analyzers

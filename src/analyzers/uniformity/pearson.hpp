@@ -81,6 +81,15 @@ Tails chi_square_tails(double statistic, double freedom);
 /// `fit`.
 Tails count_tails(double statistic, const Fit& fit);
 
+/// Probability that the statistic of n independent points is at most `statistic`, for at most n
+/// groups of equal probability; nullopt if it would take too long.
+std::optional<double> exact_lower_tail(double statistic, std::uint64_t n, std::uint64_t groups);
+
+/// The same probability for two or more groups with the given expected numbers of points, whose sum
+/// is n.
+std::optional<double> exact_lower_tail(double statistic, std::uint64_t n,
+                                       std::span<const double> expected);
+
 /// Sidak's combination of independent tests, for each tail: 1 - (1 - p)^T of the smallest p.
 Tails sidak(std::span<const Tails> tests);
 
