@@ -23,8 +23,8 @@ namespace stipple::generators {
 ///     -C R  D'R     A      -B'R
 ///     -D R -C'R     B'R     A
 ///
-/// if the autocorrelations of the four functions add up to 0 at each nonzero shift. The group
-/// consists of the integers modulo v, or of pairs of integers modulo two numbers with the product v.
+/// if the autocorrelations of the four functions add up to 0 at each nonzero shift. The group has
+/// the integers modulo v, or pairs of integers modulo two numbers with the product v.
 ///
 /// Source  J. M. Goethals, J. J. Seidel, J. Austral. Math. Soc. 11 (1970) 343-344,
 ///         doi:10.1017/S144678870000673X. v = 47 and 59: Turyn type sequences of D. Best, D. Z.

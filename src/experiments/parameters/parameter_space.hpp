@@ -35,9 +35,9 @@ struct Parameter {
 ///
 ///     {"range": [0, 2]}, {"range": [0, 2]}, "a + 2*b < 3 && a > b"
 ///
-/// Parameters that depend on the polytope's parameters still follow their conditional distributions.
-/// If other constraints drop points, the remaining points follow the distribution under all
-/// constraints.
+/// Parameters that depend on the polytope's parameters still follow their conditional
+/// distributions. If other constraints drop points, the remaining points follow the distribution
+/// under all constraints.
 class LinearPart {
   public:
     /// @param coordinates indices of the polytope's coordinates among all parameters

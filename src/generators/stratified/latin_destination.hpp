@@ -21,7 +21,7 @@
 namespace stipple::generators {
 
 /// Points anywhere in their strata, or in the middle. Strata have equal widths or, if constraints
-/// allow no such Latin hypercube, hold equal fractions of the points of the cube that have an image.
+/// allow no such Latin hypercube, hold equal fractions of the cube's points that have an image.
 class LatinPlaces {
   public:
     LatinPlaces(const Plan& plan, bool centered)
