@@ -129,6 +129,7 @@ static inline uint64_t @owen(uint64_t fraction, unsigned dimension, uint64_t see
     return ((uint64_t)new_high << 34) | ((uint64_t)(new_low >> 2) << 11);
 }
 %part sobol
+%use directions
 %need unit
 %if scramble owen
 %need owen

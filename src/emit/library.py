@@ -95,6 +95,7 @@ def @owen(fraction, dimension, seed):
         new_low ^= @flips(@hash(node, between[6 + g]), low >> shift & 31) << shift
     return new_high << 34 | new_low >> 2 << 11
 %part sobol
+%use directions
 %need unit
 %if scramble owen
 %need owen

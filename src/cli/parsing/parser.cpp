@@ -258,8 +258,7 @@ Arguments parse_arguments(int argc, const char* const* argv) {
     const bool takes_inputs = kind == nullptr || (unit != nullptr && !makes);
     const auto rest = take_words(std::move(words), own, takes_inputs, arguments);
     if (verb == Verb::analyze && !arguments.help) refuse_second_unit(arguments, *kind);
-    if (makes && inputs.size() > 1)
-        fail(ErrorKind::usage, "unexpected argument '{}'", inputs[1]);
+    if (makes && inputs.size() > 1) fail(ErrorKind::usage, "unexpected argument '{}'", inputs[1]);
     if (!inputs.empty())
         arguments.inputs.insert(arguments.inputs.end(), inputs.begin() + 1, inputs.end());
     if (!arguments.help) {

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+//
+// What `stipple emit` accepts and refuses; tests/python/test_emit.py compiles and runs the code.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "support/program.hpp"
+
+namespace stipple::testing::emit_test {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(Emit, CodeNamesItsCommandAndHasTheProgramsPoints) {
+    const Sandbox box;
+    const std::string code =
+        good(box.shell("stipple emit sobol:scramble=owen -d 3 --name s -o s.h; cat s.h"));
+    EXPECT_THAT(code, HasSubstr("stipple emit sobol --scramble owen --dimension 3 --name s\n"));
+    std::string first =
+        good(box.shell("stipple generate sobol --scramble owen -d 3 -n 2 -s 2 -f txt | head -1"));
+    EXPECT_THAT(code, HasSubstr("seed 2, point 0: " + first));
+    EXPECT_THAT(code, HasSubstr("double s(uint64_t index, unsigned dimension, uint64_t seed)"));
+    EXPECT_THAT(code, Not(HasSubstr("{{")));
+    EXPECT_THAT(code, Not(HasSubstr("@")));
+}
+
+// Only what a sampler needs is in its file.
+TEST(Emit, PartsComeOnceAndByNeed) {
+    const Sandbox box;
+    const std::string plain = good(box.run({"emit", "sobol"}));
+    EXPECT_THAT(plain, Not(HasSubstr("sobol_random(")));
+    const std::string warped = good(box.run({"emit", "sobol", "-d", "4", "-w", "disk@1,2", "-w",
+                                             "disk@3,4:radius=2", "--language", "python"}));
+    const auto count = [&](const std::string& text) {
+        std::size_t found = 0;
+        for (auto at = warped.find(text); at != warped.npos; at = warped.find(text, at + 1))
+            ++found;
+        return found;
+    };
+    EXPECT_EQ(count("def sobol_cos_sin("), 1U);
+    EXPECT_EQ(count("def sobol_disk"), 2U);
+}
+
+// A path cannot end the comment that it is in.
+TEST(Emit, CommentsStayComments) {
+    const Sandbox box;
+    const std::string code =
+        good(box.shell("mkdir 'a*'; printf 'd s a m\\n2 1 0 1\\n' > 'a*/b'; "
+                       "stipple emit sobol --directions 'a*/b'"));
+    EXPECT_THAT(code, Not(HasSubstr("a*/")));
+}
+
+TEST(Emit, RefusesWithASentence) {
+    const Sandbox box;
+    const auto refuses = [&](const std::string& arguments, const std::string& words) {
+        expect_refusal(box.shell("stipple emit " + arguments), 2, words);
+    };
+    refuses("poisson-disk",
+            "poisson-disk cannot be emitted; these can be: correlated-multi-jittered");
+    refuses("", "name one of the generators");
+    refuses("halton --leap 5", "--leap: cannot be emitted for halton");
+    refuses("sobol -d 17", "--dimension: 17 is outside [1, 16]");
+    refuses("sobol --language rust", "rust");
+    refuses("sobol --name 2d", "--name: '2d' is not a name");
+    refuses("halton --scramble owen --language glsl", "--scramble: owen takes double precision");
+    refuses("hammersley -n 2^32 --language hlsl", "--count: 4294967296 is beyond the 32 bits");
+    refuses("jittered -n 2^50", "--count: 1125899906842624 is more than 4398046511104");
+    refuses("sobol -w disk:method=rejection", "--warp disk: method rejection cannot be emitted");
+    refuses("sobol -w hemisphere:axis=[1,0,0]", "--warp hemisphere: axis 1,0,0 cannot be emitted");
+    refuses("sobol -w disk:orientation=[2,1]", "--orientation: cannot be emitted for disk");
+    refuses("sobol -w torus-surface", "torus-surface cannot be emitted; these can be: cone, disk");
+    refuses("sobol -w owen", "the scramble owen cannot be emitted");
+    refuses("sobol -d 3 -w disk", "disk");
+    refuses("sobol extra", "unexpected argument 'extra'");
+}
+
+}  // namespace stipple::testing::emit_test
