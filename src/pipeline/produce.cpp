@@ -89,10 +89,7 @@ class Producer {
         const std::uint64_t count = last - first;
         const RunContext run = run_.rising();
         sets_.prepare(run);
-        if (job_.shard.index == 0) {
-            sets_.tell_absent_levels(run);
-            tell_found();
-        }
+        if (job_.shard.index == 0) sets_.tell_absent_levels(run);
         const auto open = [&, first = first, last = last](std::size_t set, const RunContext& part) {
             OpenSet begun{.next = sets_.stream(set, part, first, last), .count = count};
             if (set + 1 == job_.sets) begun.side_files = sets_.side_files();
@@ -110,6 +107,7 @@ class Producer {
                     .seed = [&](std::size_t set) { return sets_.plan().seed + set; },
                     .starts = true},
                    target_, run);
+        if (job_.shard.index == 0) tell_found();
     }
 
     /// Notes the results of a search for a lattice.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/text.hpp"
 
@@ -86,15 +87,30 @@ std::string LatexTable::text() const {
 
 namespace {
 
+/// Numbers of a report by key, and those of its short lists as KEY[I].
+std::map<std::string, double> numbers_in(const Report& report, std::vector<std::string>& keys) {
+    constexpr std::size_t few = 9;
+    std::map<std::string, double> found;
+    const auto add = [&](const std::string& key, double number) {
+        found[key] = number;
+        if (std::ranges::find(keys, key) == keys.end()) keys.push_back(key);
+    };
+    for (const std::string& key : report.keys()) {
+        if (const auto number = number_at(report, key)) add(key, *number);
+        const auto list = list_at(report, key).value_or(Report::Curve());
+        for (std::size_t i = 0; i < list.size() && list.size() <= few; ++i)
+            add(fmt::format("{}[{}]", key, i), list[i]);
+    }
+    return found;
+}
+
 /// Table of one analyzer's measurements.
 LatexTable table_of(std::span<const Measurement> all, const std::string& analyzer) {
     LatexTable table{.comments = {analyzer}, .head = {"set", "$n$"}, .words = 1};
     std::vector<std::string> keys;
+    std::vector<std::string> unused;
     for (const Measurement& m : all)
-        for (const std::string& key : m.results.keys())
-            if (m.analyzer == analyzer && number_at(m.results, key) &&
-                std::ranges::find(keys, key) == keys.end())
-                keys.push_back(key);
+        if (m.analyzer == analyzer) numbers_in(m.results, keys);
     for (const std::string& key : keys) table.head.push_back(latex_text(key));
     for (const Measurement& m : all) {
         if (m.analyzer != analyzer) continue;
@@ -102,11 +118,14 @@ LatexTable table_of(std::span<const Measurement> all, const std::string& analyze
         if (m.set) source += fmt::format(", set {}", *m.set);
         auto& row = table.rows.emplace_back();
         row = {latex_text(source), std::to_string(m.count)};
-        for (const std::string& key : keys) {
-            const auto error = m.standard_error ? number_at(*m.standard_error, key) : std::nullopt;
-            row.push_back(latex_number(number_at(m.results, key).value_or(std::nan("")),
-                                       error.value_or(std::nan(""))));
-        }
+        const auto values = numbers_in(m.results, unused);
+        const auto errors = numbers_in(m.standard_error.value_or(Report()), unused);
+        const auto at = [](const auto& numbers, const std::string& key) {
+            const auto it = numbers.find(key);
+            return it == numbers.end() ? std::nan("") : it->second;
+        };
+        for (const std::string& key : keys)
+            row.push_back(latex_number(at(values, key), at(errors, key)));
         if (m.standard_error) table.comments = {analyzer, "means +- standard errors"};
     }
     return table;

@@ -32,8 +32,8 @@ struct LatexTable {
     [[nodiscard]] std::string text() const;
 };
 
-/// A table for each analyzer, with a row for each measurement and a column for each number; means
-/// have their standard errors.
+/// A table for each analyzer, with a row for each measurement, and a column for each number and each
+/// entry of short lists; means have their standard errors.
 std::string to_latex(std::span<const Measurement> measurements);
 
 }  // namespace stipple

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "report/table_line.hpp"
 
-#include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
 
 #include "core/json.hpp"
@@ -20,7 +18,7 @@ std::string json_value(const TableCell& cell) {
 
 std::string json_name(std::string_view name) {
     if (name.find_first_of("\\\"") != name.npos) return json_text(Json(name));
-    return fmt::format("\"{}\"", name);
+    return std::string("\"").append(name).append("\"");
 }
 
 /// Fields of a line of CSV; nullopt if a quote is not closed.

@@ -34,7 +34,8 @@ constexpr std::array config_keys = {
     Key{"seconds", Holds::flag},     Key{"summary", Holds::flag},
     Key{"pairs", Holds::items},      Key{"confidence", Holds::items},
     Key{"bootstrap", Holds::items},  Key{"output", Holds::items},
-    Key{"format", Holds::items},     Key{"parameters", Holds::items}};
+    Key{"format", Holds::items},     Key{"parameters", Holds::items},
+    Key{"wide", Holds::flag},        Key{"meta", Holds::flag}};
 
 constexpr std::array remarks = {"$schema", "comment"};
 

@@ -780,7 +780,7 @@ TEST(Analyze, GeneratedSetsHaveTheirOwnWarps) {
     std::size_t i = 0;
     for (const std::string made : {"rank1-lattice -w owen", "sobol --scramble owen"}) {
         auto alone = json::parse(good(box.shell("stipple generate -q " + made +
-                                                " -n 32 -s 3 -w disk | "
+                                                " --meta -n 32 -s 3 -w disk | "
                                                 "stipple analyze moments --no-seconds")));
         EXPECT_EQ(reports[i]["input"]["source"], made);
         EXPECT_EQ(reports[i++]["results"], alone["results"]) << made;

@@ -58,15 +58,18 @@ TEST(Latex, ReportsAreATableForEachAnalyzer) {
     Measurement other = one;
     other.analyzer = "other";
     const std::string text = to_latex(std::vector{one, other, two});
-    EXPECT_EQ(text,
-              "% needs \\usepackage{booktabs}\n"
-              "% moments\n% means +- standard errors\n"
-              "\\begin{tabular}{lrrr}\n\\toprule\nset & $n$ & mean & largest \\\\\n\\midrule\n"
-              "a\\_b.csv, set 1 & 8 & $0.5000$ & -- \\\\\n"
-              "standard input & 8 & $0.250 \\pm 0.012$ & $7$ \\\\\n"
-              "\\bottomrule\n\\end{tabular}\n"
-              "% other\n\\begin{tabular}{lrr}\n\\toprule\nset & $n$ & mean \\\\\n\\midrule\n"
-              "a\\_b.csv, set 1 & 8 & $0.5000$ \\\\\n\\bottomrule\n\\end{tabular}\n");
+    EXPECT_EQ(
+        text,
+        "% needs \\usepackage{booktabs}\n"
+        "% moments\n% means +- standard errors\n"
+        "\\begin{tabular}{lrrrrr}\n\\toprule\nset & $n$ & mean & curve[0] & curve[1] & largest "
+        "\\\\\n\\midrule\n"
+        "a\\_b.csv, set 1 & 8 & $0.5000$ & $1$ & $2$ & -- \\\\\n"
+        "standard input & 8 & $0.250 \\pm 0.012$ & -- & -- & $7$ \\\\\n"
+        "\\bottomrule\n\\end{tabular}\n"
+        "% other\n\\begin{tabular}{lrrrr}\n\\toprule\nset & $n$ & mean & curve[0] & curve[1] "
+        "\\\\\n\\midrule\n"
+        "a\\_b.csv, set 1 & 8 & $0.5000$ & $1$ & $2$ \\\\\n\\bottomrule\n\\end{tabular}\n");
 }
 
 }  // namespace stipple::testing::latex_test
