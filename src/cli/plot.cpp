@@ -408,6 +408,7 @@ class Plot {
             largest = std::max(largest, table->largest());
             tables.push_back(*std::move(table));
         }
+        refuse_options(request_, "axes", "does not apply to pairs of coordinates");
         if (!labels_.empty() && labels_.size() != tables.size())
             refuse_labels(fmt::format("of the {} reports", tables.size()));
         for (std::size_t i = 0; i < tables.size(); ++i) {

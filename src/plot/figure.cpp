@@ -131,10 +131,14 @@ Drawing fitted(PictureStyle& style, const std::function<Drawing(const PictureSty
     std::optional<std::pair<Drawing, PictureStyle>> crowded;  // the first where only texts overlap
     for (int round = 0;; ++round) {
         Drawing drawing = draw(style);
+        const auto fits_in = [](double& size, double room) {
+            if (room > 0 && size < room + 1) size = std::min(size, room);  // sizes are rounded up
+            return room <= 0 || size <= room;
+        };
+        const bool wide = fits_in(drawing.width, style.width);
+        const bool high = fits_in(drawing.height, style.height);
         const Legibility text(drawing);
-        const auto within = [](double size, double room) { return room <= 0 || size <= room; };
-        const bool fits = within(drawing.width, style.width) &&
-                          within(drawing.height, style.height) && text.inside;
+        const bool fits = wide && high && text.inside;
         const bool small = style.scale < least;
         if (fits && text.apart && !small) return drawing;
         if (fits && !crowded) crowded.emplace(drawing, style);
@@ -142,8 +146,10 @@ Drawing fitted(PictureStyle& style, const std::function<Drawing(const PictureSty
             style = crowded->second;
             return std::move(crowded->first);
         }
+        const bool requested = asked.width > 0 || asked.height > 0;
+        if (round == most && !requested) return drawing;
         if ((small && fits) || round == most) refuse_size(asked, style, least);
-        if (asked.width > 0 || asked.height > 0) {
+        if (requested) {
             style.scale *= step;
             style.height /= step;
             style.width /= step;

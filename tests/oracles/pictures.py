@@ -72,11 +72,11 @@ def check_texts(cases):
         pdf = os.path.join(folder, "picture.pdf")
         for kind, arguments in NAMED.items():
             for size in SIZES:
-                cases.run("plot", *arguments, *size, "--title", 2 * LONG, "-o", pdf, "--quiet")
+                cases.run("plot", *arguments, *size, "--title", LONG + " " + LONG, "-o", pdf, "--quiet")
                 text = subprocess.run(["pdftotext", "-bbox", pdf, "-"], capture_output=True, text=True, check=True).stdout
                 page = tree.fromstring(text).find(".//{*}page")
                 wide, high = float(page.get("width")), float(page.get("height"))
-                words = list(page.iter("{*}word"))
+                words = page.findall(".//{*}word")
                 cases.expect(f"{kind} {size}: words", len(words) > 10)
                 for word in words:
                     left, top, right, bottom = (float(word.get(key)) for key in ("xMin", "yMin", "xMax", "yMax"))
