@@ -312,7 +312,7 @@ TEST_F(Files, ReadPointsNamesTheFile) {
     EXPECT_EQ(error_of([&] { io::read_points(path("a.ply"), {}, {}); }),
               "usage: " + path("a.ply") +
                   ": ply can only be written; formats that can be read: bin, csv, json, jsonl, "
-                  "npy, psa, txt, utk");
+                  "npy, psa, tsv, txt, utk");
 }
 
 }  // namespace stipple::testing::files_test
