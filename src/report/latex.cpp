@@ -56,7 +56,7 @@ std::string latex_text(std::string_view text) {
 std::string latex_number(double value, double half_width) {
     if (std::isnan(value)) return "--";
     if (std::isinf(value)) return value > 0 ? "$\\infty$" : "$-\\infty$";
-    const bool spread = std::isfinite(half_width) && half_width > 0;
+    const bool spread = std::isfinite(half_width) && half_width > 1e-12 * std::abs(value);
     if (value == 0 && !spread) return "$0$";
     const bool whole = value == std::floor(value) && std::abs(value) < 1e6;
     if (whole && !spread) return fmt::format("${:.0f}$", value);

@@ -21,6 +21,17 @@ double quantile(std::span<const double> sorted, double q) {
     return sorted[below] + part * (sorted[below + 1] - sorted[below]);
 }
 
+/// Numbers that differ by less, relative to the larger one, differ by rounding: a shift of the
+/// points, for example, changes a distance in its last digits.
+constexpr double rounding = 0x1p-44;
+
+bool equal_but_for_rounding(double a, double b) {
+    return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
+}
+
+/// a - b, or 0 if they are equal but for rounding.
+double difference_of(double a, double b) { return equal_but_for_rounding(a, b) ? 0 : a - b; }
+
 /// Completes a test from the difference, its error and the degrees of freedom.
 MeanTest tested(double difference, double error, double degrees) {
     MeanTest test{.difference = difference, .standard_error = error, .degrees = degrees};
@@ -45,10 +56,15 @@ SampleSummary summarize(std::span<const double> sample) {
     std::vector<double> sorted(sample.begin(), sample.end());
     std::ranges::sort(sorted);
     s.median = quantile(sorted, 0.5);
-    // If all numbers are equal, a rounded sum would give them an error.
-    const bool same = sorted.front() == sorted.back();
-    s.mean = same ? sorted.front() : std::accumulate(sample.begin(), sample.end(), 0.0) / n;
+    // Of equal numbers a sum, which is rounded, would give an error.
+    const bool same = equal_but_for_rounding(sorted.front(), sorted.back());
+    s.mean =
+        same ? sorted[sorted.size() / 2] : std::accumulate(sample.begin(), sample.end(), 0.0) / n;
     if (sample.size() < 2) return s;
+    if (same) {
+        s.deviation = s.standard_error = 0;
+        return s;
+    }
     double squares = 0;
     for (const double x : sample) squares += (x - s.mean) * (x - s.mean);
     s.deviation = std::sqrt(squares / (n - 1));
@@ -85,8 +101,7 @@ Interval bootstrap_interval(std::span<const double> sample, double confidence,
     const std::uint64_t n = sample.size();
     const bool finite = std::ranges::all_of(sample, [](double x) { return std::isfinite(x); });
     if (n < 2 || resamples == 0 || !finite) return {not_known, not_known};
-    if (std::ranges::all_of(sample, [&](double x) { return x == sample[0]; }))
-        return {sample[0], sample[0]};
+    if (const SampleSummary s = summarize(sample); s.deviation == 0) return {s.mean, s.mean};
     const Rng rng(seed, stream);
     std::vector<double> means(resamples);
     for (std::uint64_t b = 0; b < resamples; ++b) {
@@ -104,16 +119,17 @@ MeanTest welch_test(std::span<const double> a, std::span<const double> b) {
     const SampleSummary y = summarize(b);
     const double u = x.standard_error * x.standard_error;
     const double v = y.standard_error * y.standard_error;
-    if (!(a.size() > 1 && b.size() > 1)) return tested(x.mean - y.mean, not_known, not_known);
+    if (!(a.size() > 1 && b.size() > 1))
+        return tested(difference_of(x.mean, y.mean), not_known, not_known);
     const double share = u / (u + v);  // the squares of u and v may underflow
     const double degrees = 1 / (share * share / static_cast<double>(a.size() - 1) +
                                 (1 - share) * (1 - share) / static_cast<double>(b.size() - 1));
-    return tested(x.mean - y.mean, std::sqrt(u + v), degrees);
+    return tested(difference_of(x.mean, y.mean), std::sqrt(u + v), degrees);
 }
 
 MeanTest paired_test(std::span<const double> a, std::span<const double> b) {
     std::vector<double> differences(a.size());
-    std::ranges::transform(a, b, differences.begin(), [](double x, double y) { return x - y; });
+    std::ranges::transform(a, b, differences.begin(), difference_of);
     const SampleSummary s = summarize(differences);
     if (s.count < 2) return tested(s.mean, not_known, not_known);
     return tested(s.mean, s.standard_error, static_cast<double>(s.count - 1));

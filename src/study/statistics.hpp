@@ -11,6 +11,7 @@
 //     Holm: the i-th smallest of m p-values (from 0) times m - i, never falling, at most 1
 //
 // Promise  the bootstrap is a function of the numbers, their order and the seed alone.
+//          Numbers that differ by at most 2^-44 of the larger one count as equal: that is rounding.
 // Beware   if neither sample varies, no error can be estimated: p = 1 if the means are the same, else
 //          0. Undefined values, such as the error of one number, are NaN.
 // Source   B. L. Welch, Biometrika 34 (1947) 28-35, doi:10.1093/biomet/34.1-2.28; S. Holm,

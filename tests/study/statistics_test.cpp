@@ -93,6 +93,26 @@ TEST(Statistics, EqualNumbersHaveNoErrorHoweverTheyRound) {
 // 400 samples of 20 uniform numbers: an exact 90 % interval contains 1/2 in 360 +- 6 of them; the
 // bootstrap's is slightly too short. Five standard deviations: false alarm below 1e-5. A 70 %
 // interval would be detected.
+TEST(Statistics, DifferencesByRoundingAreNone) {
+    const std::vector<double> exact(8, 0.05767509007903701);
+    std::vector<double> rounded = exact;
+    for (std::size_t i = 0; i < 5; ++i) rounded[i] = std::nextafter(rounded[i], 1.0);
+    rounded[6] -= 5e-16;
+    EXPECT_EQ(summarize(rounded).standard_error, 0);
+    for (const MeanTest& test : {welch_test(exact, rounded), paired_test(exact, rounded)}) {
+        EXPECT_EQ(test.difference, 0);
+        EXPECT_EQ(test.p_value, 1);
+    }
+    const auto interval = bootstrap_interval(rounded, 0.95, 100, 1);
+    EXPECT_EQ(interval.low, interval.high);
+    // Errors as small as that are numbers as others.
+    const std::vector<double> small = {1e-17, 2e-17, -1e-17, 3e-17};
+    EXPECT_GT(summarize(small).standard_error, 1e-18);
+    // A difference beyond rounding is seen, also between constants.
+    const std::vector<double> other(8, 0.05767509007903701 * (1 + 1e-12));
+    EXPECT_EQ(welch_test(exact, other).p_value, 0);
+}
+
 TEST(Statistics, BootstrapIntervalsHoldTheMeanAsOftenAsTheySay) {
     const auto held = [](double confidence) {
         int count = 0;
