@@ -165,7 +165,7 @@ using enum Verb;
 constexpr Verb writers = generate | warp | convert;
 constexpr Verb readers = warp | analyze | convert | plot | report;
 constexpr Verb workers = writers | analyze | plot | study | report | reproduce;
-constexpr Verb all_verbs = workers | list | help | completions;
+constexpr Verb all_verbs = workers | list | help | completions | emit;
 
 constexpr double most_points = 0x1p53;
 constexpr double most_dimensions = 1'000'000;

@@ -367,13 +367,32 @@ bool has_tabs_and_commas(std::string_view line) {
     return comma;
 }
 
-/// Guesses the separator from a line. Names in a header may contain blanks if tabs separate them.
+/// The line without its quoted fields, in which separators are part of a name.
+std::string without_quoted(std::string_view line) {
+    std::string bare;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const bool field_starts =
+            i == 0 || std::string_view(",; \t").find(line[i - 1]) != line.npos;
+        const std::size_t close = line.find('"', i + 1);
+        if (line[i] == '"' && field_starts && close != line.npos)
+            i = close;
+        else
+            bare += line[i];
+    }
+    return bare;
+}
+
+/// Guesses the separator from a line. Names in a header may contain blanks, commas and semicolons if
+/// tabs separate them, and no tab is beside one of these, as where columns are lined up.
 char separator_of(std::string_view line) {
     if (has_tabs_and_commas(line)) return '\t';
-    for (const char separator : {';', ','})
-        if (line.find(separator) != std::string_view::npos) return separator;
-    if (line.find('\t') == std::string_view::npos) return ' ';
-    return is_header(fields_of(line, '\t')) ? '\t' : ' ';
+    const std::string bare = without_quoted(line);
+    const auto has = [&bare](std::string_view text) { return bare.find(text) != bare.npos; };
+    const bool beside = has(",\t") || has("\t,") || has(";\t") || has("\t;");
+    if (has("\t") && !beside && is_header(fields_of(line, '\t'))) return '\t';
+    for (const char* separator : {";", ","})
+        if (has(separator)) return separator[0];
+    return ' ';
 }
 
 }  // namespace

@@ -31,4 +31,24 @@ TEST(Tsv, NamesWithBlanksAndWordsReadBack) {
     EXPECT_EQ(read_as("tsv", text).at(0), set);
 }
 
+TEST(Tsv, NamesWithSeparatorsReadBackFromAnyFormat) {
+    for (const std::vector<std::string>& names : {std::vector<std::string>{"load; N", "layers"},
+                                                  {"a, b", "b (mm, cold)"},
+                                                  {"a\tb", "c;d"},
+                                                  {"x", "y, mm; z"}}) {
+        PointSet set = points_of({{1, 0}, {5, 3}, {3, 6}});
+        set.provenance.columns = names;
+        for (const char* format : {"csv", "tsv"}) {
+            const std::string text = written(format, {set}, {.provenance = set.provenance});
+            EXPECT_EQ(read_as(format, text).at(0), set) << text;
+        }
+    }
+    // Names without quotes, as other programs write them.
+    EXPECT_EQ(read_as("tsv", "x, mm\ty; mm\n1\t2\n").at(0).provenance.columns,
+              (std::vector<std::string>{"x, mm", "y; mm"}));
+    EXPECT_EQ(read_as("csv", "x,\ty\n1,\t2\n").at(0).provenance.columns,
+              (std::vector<std::string>{}));  // x and y are the default names
+    EXPECT_EQ(read_as("csv", "\"x; mm\",y\n1,2\n3,4\n").at(0).flat().size(), 4U);
+}
+
 }  // namespace stipple::testing::tsv_test
