@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import stipple
+from stipple import qmc
 
 Floats = NDArray[np.float64]
 
@@ -87,6 +88,15 @@ except stipple.Error as error:
 assert issubclass(stipple.Note, UserWarning)
 print(stipple.__version__)
 
+# The names of scipy.stats.qmc
+assert_type(qmc.Sobol(2, scramble=False, seed=np.random.default_rng(1), order="natural").random(8), Floats)
+assert_type(qmc.LatinHypercube(2, rng=[1, 2], optimize="maximin").random(8), Floats)
+assert_type(qmc.PoissonDisk(2, radius=0.1, u_bounds=[1, 2]).fast_forward(3).fill_space(), Floats)
+assert_type(qmc.Engine(3, generator="kronecker").reset().integers(6, n=5), NDArray[np.int64])
+assert_type(qmc.discrepancy(x, method="MD") + qmc.geometric_discrepancy(x, metric="cityblock"), float)
+assert_type(qmc.n_primes(5), list[int])
+assert_type(qmc.van_der_corput(5, 3, scramble=True, seed=None), Floats)
+
 # Wrong calls
 stipple.generate("halton", "10")  # error: call-overload
 stipple.generate(3)  # error: call-overload
@@ -96,3 +106,6 @@ stipple.integrate(3, "random", 10, 2)  # error: arg-type
 stipple.plot(x, titel="x")  # error: call-overload
 stipple.study("random", "moments", seeds="3")  # error: arg-type
 stipple.write(3, x)  # error: arg-type
+qmc.Halton(2, seed="1")  # error: arg-type
+qmc.LatinHypercube("2")  # error: arg-type
+qmc.PoissonDisk(2, order=print)  # error: arg-type

@@ -17,8 +17,8 @@ import math
 
 import numpy as np
 import numpy.typing as npt
-from scipy.spatial import KDTree
-from scipy.spatial.distance import cdist
+from scipy.spatial import KDTree  # type: ignore[import]
+from scipy.spatial.distance import cdist  # type: ignore[import]
 
 Rows = npt.NDArray[np.float64]
 
@@ -61,7 +61,8 @@ class Bridson:
         shell = 1 + (2.0**d - 1) * self._random.random(self._candidates)
         length = np.full(len(shell), 1 + 1e-9) if self._surface else shell ** (1 / d)
         around = point + steps * (self._radius * length / np.linalg.norm(steps, axis=1))[:, None]
-        return around[((self._low <= around) & (around < self._high)).all(axis=1)]
+        inside: Rows = around[((self._low <= around) & (around < self._high)).all(axis=1)]
+        return inside
 
     def _first_free(self, candidates: Rows) -> Rows | None:
         """The first candidate with enough room, now a point; None if there is none."""

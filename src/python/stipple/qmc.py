@@ -22,22 +22,22 @@ import math
 import numbers
 import os
 import warnings
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
-import scipy.stats.qmc as _scipy
-from scipy.sparse.csgraph import minimum_spanning_tree
-from scipy.spatial.distance import pdist, squareform
+import scipy.stats.qmc as _scipy  # type: ignore[import]
+from numpy.typing import ArrayLike, NDArray
+from scipy.sparse.csgraph import minimum_spanning_tree  # type: ignore[import]
+from scipy.spatial.distance import pdist, squareform  # type: ignore[import]
 from scipy.stats.qmc import QMCEngine, scale, update_discrepancy
 
 from . import _stipple
-from ._arrays import settings_of
+from ._arguments import Floats, Option, settings_of
 from ._bridson import Bridson
 from .calls import _how, analyze, generate
 from .calls import scramble as _scrambled
-from .units import find
+from .units import find, records
 
 __all__ = [
     "Engine",
@@ -58,27 +58,32 @@ __all__ = [
     "van_der_corput",
 ]
 
+Seed: TypeAlias = int | np.integer[Any] | np.random.Generator | np.random.RandomState | None
+Rng: TypeAlias = (int | np.integer[Any] | Sequence[int] | NDArray[np.integer[Any]] | None
+                  | np.random.SeedSequence | np.random.BitGenerator | np.random.Generator)
+
 _SEED = "rng" if "rng" in inspect.signature(QMCEngine.__init__).parameters else "seed"
 
 
-def check_random_state(seed: Any = None) -> np.random.Generator | np.random.RandomState:
+def check_random_state(seed: Seed = None) -> np.random.Generator | np.random.RandomState:
     """A Generator made of None or a whole number; a Generator or RandomState itself."""
     if seed is None or isinstance(seed, numbers.Integral):
-        return np.random.default_rng(seed)
+        return np.random.default_rng(None if seed is None else int(seed))
     if isinstance(seed, (np.random.Generator, np.random.RandomState)):
         return seed
     raise ValueError(f"{seed!r} cannot be used to seed a numpy.random.Generator instance")
 
 
-def _first_seed(seed: Any, rng: Any) -> int:
+def _first_seed(seed: Seed, rng: Rng) -> int:
     if seed is not None and rng is not None:
         raise TypeError("got multiple values for argument now known as `rng`. Specify one of `rng` "
                         "or `seed`.")
-    if isinstance(seed, numbers.Integral) and 0 <= seed < 2**64:
+    if isinstance(seed, numbers.Integral) and 0 <= int(seed) < 2**64:
         return int(seed)
     source = check_random_state(seed) if rng is None else np.random.default_rng(rng)
-    draw = source.randint if isinstance(source, np.random.RandomState) else source.integers
-    return int(draw(1, 2**63, dtype=np.int64))
+    if isinstance(source, np.random.RandomState):
+        return int(source.randint(1, 2**63, dtype=np.int64))
+    return int(source.integers(1, 2**63, dtype=np.int64))
 
 
 def _threads(workers: int) -> int:
@@ -100,7 +105,7 @@ def _whole(name: str, value: Any) -> int:
     return int(value)
 
 
-def _in_cube(sample: npt.ArrayLike) -> np.ndarray:
+def _in_cube(sample: ArrayLike) -> Floats:
     sample = np.asarray(sample, dtype=np.float64, order="C")
     if sample.ndim != 2:
         raise ValueError("Sample is not a 2D array")
@@ -111,7 +116,7 @@ def _in_cube(sample: npt.ArrayLike) -> np.ndarray:
     return sample
 
 
-def _box(low: Any, high: Any, d: int) -> tuple[np.ndarray, np.ndarray]:
+def _box(low: ArrayLike, high: ArrayLike, d: int) -> tuple[NDArray[Any], NDArray[Any]]:
     try:
         low, high = np.broadcast_to(low, d), np.broadcast_to(high, d)
     except ValueError:
@@ -125,8 +130,7 @@ def _box(low: Any, high: Any, d: int) -> tuple[np.ndarray, np.ndarray]:
 # SciPy's method: the kind of l2-discrepancy, whether the result is its square, and two terms of
 # squared = c^d - 2/n sum_i prod_j a(x_ij) + n^-2 sum_i sum_k K(x_i, x_k): c^d (with its sign) and
 # a, with z = |x - 1/2|.
-_METHODS: dict[str, tuple[str, bool, Callable[[int], float],
-                           Callable[[np.ndarray, np.ndarray], np.ndarray]]] = {
+_METHODS: dict[str, tuple[str, bool, Callable[[int], float], Callable[[Floats, Floats], Floats]]] = {
     "CD": ("centered", True, lambda d: (13 / 12) ** d, lambda x, z: 1 + z / 2 - z * z / 2),
     "WD": ("wraparound", True, lambda d: -((4 / 3) ** d), lambda x, z: 0 * x),
     "MD": ("mixture", True, lambda d: (19 / 12) ** d, lambda x, z: 5 / 3 - z / 4 - z * z / 4),
@@ -134,7 +138,7 @@ _METHODS: dict[str, tuple[str, bool, Callable[[int], float],
 }
 
 
-def discrepancy(sample: npt.ArrayLike, *, iterative: bool = False, method: str = "CD",
+def discrepancy(sample: ArrayLike, *, iterative: bool = False, method: str = "CD",
                 workers: int = 1) -> float:
     """L2 discrepancy of points: small if they are evenly spread.
 
@@ -164,7 +168,7 @@ def discrepancy(sample: npt.ArrayLike, *, iterative: bool = False, method: str =
     return float(square if is_square else math.sqrt(max(square, 0)))
 
 
-def geometric_discrepancy(sample: npt.ArrayLike, method: str = "mindist",
+def geometric_discrepancy(sample: ArrayLike, method: str = "mindist",
                           metric: str | Callable[..., float] = "euclidean") -> float:
     """Smallest distance between two different points, or mean edge of their minimum spanning tree:
     large if points are evenly spread.
@@ -191,9 +195,10 @@ def geometric_discrepancy(sample: npt.ArrayLike, method: str = "mindist",
         raise ValueError(f"{method!r} is not a valid method. It must be one of "
                          "{'mindist', 'mst'}")
     norms = {"euclidean": "euclidean", "cityblock": "manhattan", "chebyshev": "chebyshev"}
-    if metric in norms:
+    norm = norms.get(metric) if isinstance(metric, str) else None
+    if norm is not None:
         analyzer = "nearest-neighbor" if method == "mindist" else "spanning-tree"
-        found = analyze(analyzer, x, metric=norms[metric])
+        found = analyze(analyzer, x, metric=norm)
         smallest, mean = found.minimum, found.mean
     else:
         distances = pdist(x, metric)
@@ -210,7 +215,7 @@ def geometric_discrepancy(sample: npt.ArrayLike, method: str = "mindist",
     return float(smallest)
 
 
-def primes_from_2_to(n: int) -> npt.NDArray[np.int64]:
+def primes_from_2_to(n: int) -> NDArray[np.int64]:
     """The primes below n, in order."""
     is_prime = np.ones(max(n, 2), dtype=bool)
     is_prime[:2] = False
@@ -223,11 +228,12 @@ def primes_from_2_to(n: int) -> npt.NDArray[np.int64]:
 def n_primes(n: int) -> list[int]:
     """The first n primes. They are below n (log n + log log n) for n >= 6 (Rosser)."""
     m = max(n, 6)
-    return primes_from_2_to(int(m * (math.log(m) + math.log(math.log(m)))) + 1)[:n].tolist()
+    primes = primes_from_2_to(int(m * (math.log(m) + math.log(math.log(m)))) + 1)
+    return [int(prime) for prime in primes[:n]]
 
 
 def van_der_corput(n: int, base: int = 2, *, start_index: int = 0, scramble: bool = False,
-                   seed: Any = None, rng: Any = None, workers: int = 1) -> npt.NDArray[np.float64]:
+                   seed: Seed = None, rng: Rng = None, workers: int = 1) -> Floats:
     """Points start_index, start_index + 1, ... of the van der Corput sequence: an array (n,) in
     [0, 1).
 
@@ -249,7 +255,7 @@ def van_der_corput(n: int, base: int = 2, *, start_index: int = 0, scramble: boo
     return np.array(x).ravel()
 
 
-class Engine(QMCEngine):
+class Engine(QMCEngine):  # type: ignore[misc]
     """Any generator of stipple as a QMCEngine.
 
     d             number of coordinates, 0 or more
@@ -268,48 +274,54 @@ class Engine(QMCEngine):
 
     generator = "random"
 
+    if TYPE_CHECKING:  # SciPy's, which have no types
+        num_generated: int
+
+        def random(self, n: int = 1, *, workers: int = 1) -> Floats: ...
+
     def __init__(self, d: int, *, generator: str | None = None, optimization: str | None = None,
-                 seed: Any = None, rng: Any = None, **options: Any) -> None:
+                 seed: Seed = None, rng: Rng = None, **options: Option) -> None:
         self.d = d
         self._first_seed = _first_seed(seed, rng)
         self._optimization = optimization
         self._name = generator or self.generator
-        self._options = options
+        self._options: dict[str, Any] = options
         self._init_quad = {"d": d, "generator": self._name, "optimization": optimization, **options}
         self.reset()
         unit = find(self._name.split(":")[0], ["generators"])
         if unit is None:
             generate(self._name, 1, d)  # raises the error for an unknown name
-        self._prefix = unit["traits"]["sequence"] and unit["traits"]["prefix"]
-        self._points: Any = None
+        assert unit is not None
+        self._prefix: bool = unit["traits"]["sequence"] and unit["traits"]["prefix"]
+        self._points: _stipple.Indexed | None = None
         if self._prefix and d > 0:
             self._indexed()
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_points": None}
 
-    def _indexed(self) -> Any:
+    def _indexed(self) -> _stipple.Indexed:
         if self._points is None:
             self._points = _stipple.Indexed(self._name, settings_of(self._options), self.d,
                                             self._first_seed)
         return self._points
 
-    def _set(self, n: int | None, workers: int, **more: Any) -> npt.NDArray[np.float64]:
+    def _set(self, n: int | None, workers: int, **more: Option) -> Floats:
         """The next set of a generator that is not a sequence."""
         seed = (self._first_seed + self._sets) % 2**64
         self._sets += 1
-        options = {**self._options, **more, "threads": _threads(workers)}
+        options: dict[str, Any] = {**self._options, **more, "threads": _threads(workers)}
         return np.array(generate(self._name, n, self.d, seed=seed, **options))
 
-    def _random(self, n: int = 1, *, workers: int = 1) -> npt.NDArray[np.float64]:
+    def _random(self, n: int = 1, *, workers: int = 1) -> Floats:
         if _whole("n", n) == 0 or self.d == 0:
             return np.empty((n, self.d))
         if self._prefix:
             return self._indexed().part(self.num_generated, n, _how(_threads(workers)))
         return self._set(n, workers)
 
-    def integers(self, l_bounds: npt.ArrayLike, *, u_bounds: npt.ArrayLike | None = None,
-                 n: int = 1, endpoint: bool = False, workers: int = 1) -> npt.NDArray[np.int64]:
+    def integers(self, l_bounds: ArrayLike, *, u_bounds: ArrayLike | None = None,
+                 n: int = 1, endpoint: bool = False, workers: int = 1) -> NDArray[np.int64]:
         """Points of integers (n, d): l + floor((u - l) x), which are below u.
 
         l_bounds, u_bounds  l and u: integers, for all coordinates or for each; without u_bounds, 0
@@ -322,12 +334,13 @@ class Engine(QMCEngine):
         if any(not np.issubdtype(np.asarray(bound).dtype, np.integer) for bound in (low, high)):
             raise ValueError("'u_bounds' and 'l_bounds' must be integers or array-like of integers")
         box = _box(low, np.add(high, int(endpoint)), self.d)
-        low, high = (bound.astype(np.int64) for bound in box)
-        width = high - low
+        lowest, highest = (bound.astype(np.int64) for bound in box)
+        width = highest - lowest
         if not (width > 0).all():
             raise ValueError("'l_bounds' and 'u_bounds' are 2^63 or more apart")
         steps = np.floor(self.random(n, workers=workers) * width).astype(np.int64)
-        return low + np.minimum(steps, width - 1)
+        drawn: NDArray[np.int64] = lowest + np.minimum(steps, width - 1)
+        return drawn
 
     def reset(self) -> Engine:
         """Back to the first point or set."""
@@ -348,7 +361,7 @@ class _Scrambled(Engine):
 
     def __init__(self, d: int, *, scramble: bool | str = True, **options: Any) -> None:
         self.scramble = scramble
-        words = {True: "owen", False: "none"}
+        words: dict[bool | str, str] = {True: "owen", False: "none"}
         super().__init__(d, scramble=words.get(scramble, scramble), **options)
         self._init_quad["scramble"] = scramble or True
 
@@ -367,11 +380,11 @@ class Sobol(_Scrambled):
     """
 
     generator = "sobol"
-    MAXDIM: int = find("sobol", ["generators"])["traits"]["max_dimension"]
+    MAXDIM: int = records()["generators"]["sobol"]["traits"]["max_dimension"]
 
     def __init__(self, d: int, *, scramble: bool | str = True, bits: int | None = None,
-                 optimization: str | None = None, seed: Any = None, rng: Any = None,
-                 **options: Any) -> None:
+                 optimization: str | None = None, seed: Seed = None, rng: Rng = None,
+                 **options: Option) -> None:
         if isinstance(d, numbers.Integral) and d > self.MAXDIM and "directions" not in options:
             raise ValueError(f"Maximum supported dimensionality is {self.MAXDIM}.")
         self.bits = 52 if bits is None else _whole("bits", bits)
@@ -384,7 +397,7 @@ class Sobol(_Scrambled):
                          **options)
         self._init_quad["bits"] = bits
 
-    def _random(self, n: int = 1, *, workers: int = 1) -> npt.NDArray[np.float64]:
+    def _random(self, n: int = 1, *, workers: int = 1) -> Floats:
         total = self.num_generated + _whole("n", n)
         if total > self.maxn:
             done = self.num_generated
@@ -397,7 +410,7 @@ class Sobol(_Scrambled):
                           stacklevel=3)
         return super()._random(n, workers=workers)
 
-    def random_base2(self, m: int) -> npt.NDArray[np.float64]:
+    def random_base2(self, m: int) -> Floats:
         """The next 2^m points, if there are then 2^k points in all; otherwise a ValueError."""
         total = self.num_generated + 2 ** _whole("m", m)
         if total & (total - 1) != 0:
@@ -423,7 +436,7 @@ class Halton(_Scrambled):
     generator = "halton"
 
     def __init__(self, d: int, *, scramble: bool | str = True, optimization: str | None = None,
-                 seed: Any = None, rng: Any = None, **options: Any) -> None:
+                 seed: Seed = None, rng: Rng = None, **options: Option) -> None:
         super().__init__(d, scramble=scramble, optimization=optimization, seed=seed, rng=rng,
                          **options)
 
@@ -448,8 +461,8 @@ class LatinHypercube(Engine):
     generator = "latin-hypercube"
 
     def __init__(self, d: int, *, centered: bool = False, scramble: bool = True, strength: int = 1,
-                 optimization: str | None = None, seed: Any = None, rng: Any = None,
-                 **options: Any) -> None:
+                 optimization: str | None = None, seed: Seed = None, rng: Rng = None,
+                 **options: Option) -> None:
         if centered:
             warnings.warn("'centered' is deprecated. Please use 'scramble' instead. "
                           "'centered=True' corresponds to 'scramble=False'.", stacklevel=2)
@@ -457,11 +470,11 @@ class LatinHypercube(Engine):
             raise ValueError(f"{strength!r} is not a valid strength. It must be one of {{1, 2}}")
         self.scramble = bool(scramble) and not centered
         self._strength = strength
-        super().__init__(d, optimization=optimization, seed=seed, rng=rng, strength=strength,
-                         centered=not self.scramble, **options)
+        given: dict[str, Any] = {"strength": strength, "centered": not self.scramble, **options}
+        super().__init__(d, optimization=optimization, seed=seed, rng=rng, **given)
         self._init_quad = {"d": d, "optimization": optimization, "strength": strength, **options}
 
-    def _random(self, n: int = 1, *, workers: int = 1) -> npt.NDArray[np.float64]:
+    def _random(self, n: int = 1, *, workers: int = 1) -> Floats:
         p = math.isqrt(_whole("n", n))
         if self._strength == 2 and n > 0:
             primes = primes_from_2_to(max(p, 3) + 1)
@@ -472,7 +485,7 @@ class LatinHypercube(Engine):
                 raise ValueError("n is too small for d. Must be n > (d-1)**2")
         return super()._random(n, workers=workers)
 
-    def random(self, n: int = 1, *, workers: int = 1) -> npt.NDArray[np.float64]:
+    def random(self, n: int = 1, *, workers: int = 1) -> Floats:
         """A set of n points (n, d)."""
         search = str(self._optimization).lower() == "random-cd" and self._strength == 1
         effort = self._options.get("effort", 0.01 if _whole("n", n) <= 500 else None)
@@ -511,18 +524,20 @@ class PoissonDisk(Engine):
     generator = "poisson-disk"
 
     def __init__(self, d: int, *, radius: float = 0.05, hypersphere: str = "volume",
-                 ncandidates: int = 30, optimization: str | None = None, seed: Any = None,
-                 rng: Any = None, l_bounds: npt.ArrayLike | None = None,
-                 u_bounds: npt.ArrayLike | None = None, **options: Any) -> None:
+                 ncandidates: int = 30, optimization: str | None = None, seed: Seed = None,
+                 rng: Rng = None, l_bounds: ArrayLike | None = None,
+                 u_bounds: ArrayLike | None = None, **options: Option) -> None:
         if hypersphere not in ("volume", "surface"):
             raise ValueError(f"{hypersphere!r} is not a valid hypersphere sampling method. It must "
                              "be one of {'volume', 'surface'}")
-        if not (isinstance(radius, numbers.Real) and radius > 0):
+        # No isinstance(): types have no float that is a Real, and what follows would go unchecked.
+        if not (issubclass(type(radius), numbers.Real) and radius > 0):
             raise ValueError(f"radius must be above 0, not {radius!r}")
         if _whole("ncandidates", ncandidates) == 0:
             raise ValueError("ncandidates must be 1 or more")
         self.radius, self.hypersphere, self.ncandidates = radius, hypersphere, ncandidates
-        super().__init__(d, optimization=optimization, seed=seed, rng=rng, **options)
+        given: dict[str, Any] = options
+        super().__init__(d, optimization=optimization, seed=seed, rng=rng, **given)
         low, high = 0 if l_bounds is None else l_bounds, 1 if u_bounds is None else u_bounds
         self.l_bounds, self.u_bounds = box = _box(low, high, d)
         self._init_quad = {"d": d, "radius": radius, "hypersphere": hypersphere,
@@ -536,32 +551,39 @@ class PoissonDisk(Engine):
         self._options = {"radius": radius, "bounds": np.transpose(box), "order": "progressive",
                          "bounded": straight, **options}
 
-    def _random(self, n: float = 1, *, workers: int = 1) -> npt.NDArray[np.float64]:
+    def reset(self) -> PoissonDisk:
+        """Back to the first point."""
+        self._made: Floats | None = None
+        self._growing: Bridson | None = None
+        super().reset()
+        return self
+
+    def _random(self, n: float = 1, *, workers: int = 1) -> Floats:
         if n == 0 or self.d == 0:
-            return np.empty((n if math.isfinite(n) else 0, self.d))
+            return np.empty((int(n) if math.isfinite(n) else 0, self.d))
         if not self._maximal:
-            if self._made is None:
+            if self._growing is None:
                 box = self.l_bounds, self.u_bounds
-                self._made = Bridson(box, self.radius, self.hypersphere == "surface",
-                                     self.ncandidates, self._first_seed)
-            return self._made.draw(n)
+                self._growing = Bridson(box, self.radius, self.hypersphere == "surface",
+                                        self.ncandidates, self._first_seed)
+            return self._growing.draw(n)
         if self._made is None:
             self._made = self._set(None, workers)
         first = self.num_generated
         return self._made[first : first + int(min(n, len(self._made)))].copy()
 
-    def _draw(self, n: float, workers: int) -> npt.NDArray[np.float64]:
+    def _draw(self, n: float, workers: int) -> Floats:
         sample = self._random(n, workers=workers)
         if self.optimization_method is not None and len(sample) > 0:
             sample = self.optimization_method(sample)
         self.num_generated += len(sample)
         return sample
 
-    def random(self, n: int = 1, *, workers: int = 1) -> npt.NDArray[np.float64]:
+    def random(self, n: int = 1, *, workers: int = 1) -> Floats:
         """The next n points, or as many as there is room for."""
         return self._draw(_whole("n", n), workers)
 
-    def fill_space(self, *, workers: int = 1) -> npt.NDArray[np.float64]:
+    def fill_space(self, *, workers: int = 1) -> Floats:
         """Points until there is no room or, by Bridson's algorithm, until no candidate fits."""
         return self._draw(math.inf, workers)
 
@@ -570,14 +592,8 @@ class PoissonDisk(Engine):
         self.random(n)
         return self
 
-    def reset(self) -> PoissonDisk:
-        """Back to the first point."""
-        self._made: Any = None
-        super().reset()
-        return self
 
-
-class MultivariateNormalQMC(_scipy.MultivariateNormalQMC):
+class MultivariateNormalQMC(_scipy.MultivariateNormalQMC):  # type: ignore[misc]
     """Points of a multivariate normal distribution, made of an engine's points.
 
     mean           (d,)
@@ -591,16 +607,16 @@ class MultivariateNormalQMC(_scipy.MultivariateNormalQMC):
     random(n) returns an array (n, d). Raises ValueError for wrong shapes or matrices.
     """
 
-    def __init__(self, mean: npt.ArrayLike, cov: npt.ArrayLike | None = None, *,
-                 cov_root: npt.ArrayLike | None = None, inv_transform: bool = True,
-                 engine: QMCEngine | None = None, seed: Any = None, rng: Any = None) -> None:
+    def __init__(self, mean: ArrayLike, cov: ArrayLike | None = None, *,
+                 cov_root: ArrayLike | None = None, inv_transform: bool = True,
+                 engine: QMCEngine | None = None, seed: Seed = None, rng: Rng = None) -> None:
         if engine is None:
             d = np.atleast_1d(mean).shape[0]
             engine = Sobol(d if inv_transform else d + d % 2, seed=seed, rng=rng)
         super().__init__(mean, cov, cov_root=cov_root, inv_transform=inv_transform, engine=engine)
 
 
-class MultinomialQMC(_scipy.MultinomialQMC):
+class MultinomialQMC(_scipy.MultinomialQMC):  # type: ignore[misc]
     """Counts of n_trials in k categories, made of an engine's points.
 
     pvals     probabilities (k,), which sum to 1
@@ -610,7 +626,7 @@ class MultinomialQMC(_scipy.MultinomialQMC):
     random(n) returns an array (n, k). Raises ValueError for wrong probabilities or engines.
     """
 
-    def __init__(self, pvals: npt.ArrayLike, n_trials: int, *, engine: QMCEngine | None = None,
-                 seed: Any = None, rng: Any = None) -> None:
+    def __init__(self, pvals: ArrayLike, n_trials: int, *, engine: QMCEngine | None = None,
+                 seed: Seed = None, rng: Rng = None) -> None:
         engine = Sobol(1, seed=seed, rng=rng) if engine is None else engine
         super().__init__(pvals, n_trials, engine=engine)
