@@ -283,6 +283,7 @@ Words words_of(const SetsToMake& job, const Plan& plan, Language language, const
         end = std::min(end, (std::uint64_t{1} << 62) / largest);  // reversed digits fit 62 bits
         add_list(words, bases, language);
     }
+    if (is_shader(language)) end = std::min(end, words_end);
     words["end"] = std::to_string(end);
     if (generator.constants)
         for (const Constants& list : generator.constants(plan, job.options, run))

@@ -22,11 +22,16 @@
  *
  * Source: {{source}}
  */
+#ifndef @INCLUDED
+#define @INCLUDED
+
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
 {{parts}}
+
+#endif
 %part point
 /* Point `index`, with its images under warps. */
 static inline void @point(uint64_t index, uint64_t seed, double point[{{out}}]) {

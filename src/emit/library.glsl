@@ -13,15 +13,19 @@
  *     {{command}}
  *
  * The numbers are those of 'stipple generate', cut to float32 (as by its --dtype f32), for indices
- * and seeds below 2^32. They are computed in integers of 32 bits, so that they do not depend on the
- * GPU, and are below 1.
+ * below {{end}} and seeds below 2^32. They are computed in integers of 32 bits, so that they do not
+ * depend on the GPU, and are below 1.
+%if language GLSL
+ * This needs GLSL 4.00 or later.
+%end
 %if rare
  * Exception: stipple moves a number that rounding puts at the edge of its stratum to the middle;
  * here that may be missed, for about one number in 2^52 / {{count}}.
 %end
 %if warped
- * Warps work in float32: their results are those of stipple up to the errors of the GPU's sin, cos
- * and sqrt.
+ * Warps work in float32 on coordinates cut to float32: near a rim or a pole, where a warp magnifies
+ * the digits that are cut, images differ by up to 1e-4, elsewhere by the errors of the GPU's sin,
+ * cos and sqrt.
 %end
  *
  * Points as stipple makes them, in float32:
@@ -31,7 +35,12 @@
  * Source: {{source}}
  */
 
+#ifndef @INCLUDED
+#define @INCLUDED
+
 {{parts}}
+
+#endif
 %part point
 /* Point `index`, with its images under warps. */
 void @point(uint index, uint seed, out float p[{{out}}]) {
