@@ -107,8 +107,7 @@ std::vector<std::string> log_parameters(const std::string& domain) {
     std::vector<std::string> names;
     const Json file = file_of(domain);
     for (const Json& parameter : file.is_null() ? Json() : file["parameters"])
-        if (parameter.value("scale", Json()) == "log" ||
-            parameter.value("distribution", Json()) == "log-uniform")
+        if (parameter.value("scale", Json()) == "log")
             names.push_back(words_of(parameter.value("name", Json(""))));
     return names;
 }

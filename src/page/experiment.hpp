@@ -11,7 +11,7 @@ namespace stipple::page {
 /// Whether a domain's spec is that of named parameters.
 bool is_experiment(const std::string& domain);
 
-/// Names of the parameters whose logarithms are uniform; empty for other domains.
+/// Names of the parameters on a log scale; empty for other domains.
 std::vector<std::string> log_parameters(const std::string& domain);
 
 /// Table of the parameters: names, units and possible values; followed by their constraints and
