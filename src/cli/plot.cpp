@@ -429,7 +429,7 @@ class Plot {
     }
 
     void add(plot::Chart chart) {
-        rename_axes(chart);
+        if (chart_ != "histogram") rename_axes(chart);  // a histogram's coordinates are renamed
         const auto draw = [chart](const plot::PictureStyle& style, bool) {
             return plot::draw_chart(chart, style);
         };
