@@ -505,12 +505,20 @@ SquareDrawing square_drawing(TitledDrawing titled, const std::vector<LegendEntry
         top += legend_height({entry}, whole_width) - 5;
     }
     if (!legend.empty()) top += 5;
-    const double left = std::ceil(picture_margin / 2 + Panel::room_left(y, 500));
-    const double below = Panel::room_below(x, 200) + picture_margin;
     const double beside = bar ? colour_bar_room : picture_margin / 2;
-    const double wide = std::floor(drawing.width - left - beside - picture_margin);
+    double left = 0;
+    double below = 0;
+    double wide = 500;
     double side = wide;
-    if (style.height > 0) side = std::min(side, std::floor(style.height - top - below - above));
+    for (int rounds = 0; rounds < 3; ++rounds) {  // names have more lines along shorter sides
+        left = std::max(left, std::ceil(picture_margin / 2 +
+                                        Panel::room_left(y, std::clamp(side, least, 500.0))));
+        below =
+            std::max(below, Panel::room_below(x, std::clamp(side, least, 200.0)) + picture_margin);
+        wide = std::floor(drawing.width - left - beside - picture_margin);
+        side = wide;
+        if (style.height > 0) side = std::min(side, std::floor(style.height - top - below - above));
+    }
     side = std::max(side, least);
     drawing.width = std::max(drawing.width, left + side + beside + picture_margin);
     drawing.height = std::ceil(top + above + side + below);

@@ -38,16 +38,44 @@ struct Legibility {
     }
 };
 
-/// Rejects the requested size, naming one at which letters have the scale `least`.
-[[noreturn]] void refuse_size(const PictureStyle& asked, const PictureStyle& fits, double least) {
+using Draw = std::function<Drawing(const PictureStyle&)>;
+
+constexpr double least_scale = 0.5;  // smallest scale with legible letters
+
+/// A drawing in a style, and whether it has the style's size and its texts are inside.
+struct Trial {
+    Drawing drawing;
+    bool fits;
+    bool apart;
+
+    Trial(const Draw& draw, const PictureStyle& style) : drawing(draw(style)) {
+        const auto fits_in = [](double& size, double room) {
+            if (room > 0 && size < room + 1) size = std::min(size, room);  // sizes are rounded up
+            return room <= 0 || size <= room;
+        };
+        const bool wide = fits_in(drawing.width, style.width);
+        const bool high = fits_in(drawing.height, style.height);
+        const Legibility text(drawing);
+        fits = wide && high && text.inside;
+        apart = text.apart;
+    }
+};
+
+/// Rejects the requested size, naming a larger one that was tried.
+[[noreturn]] void refuse_size(const PictureStyle& asked, PictureStyle larger, const Draw& draw) {
+    const auto in_pixels = [&larger](double size) { return std::ceil(size * larger.scale - 1e-9); };
+    do {
+        larger.width = in_pixels(1.05 * larger.width) / larger.scale;
+        larger.height = in_pixels(1.05 * larger.height) / larger.scale;
+    } while (in_pixels(larger.width + larger.height) < 1e5 && !Trial(draw, larger).fits);
     const char* names[] = {"width", "height"};
     const double sizes[] = {asked.width, asked.height};
-    const double needed[] = {fits.width, fits.height};
+    const double needed[] = {larger.width, larger.height};
     std::vector<std::string> given, enough;
     for (int k = 0; k < 2; ++k)
         if (sizes[k] > 0) {
             given.push_back(fmt::format("--{}: {:.0f}", names[k], sizes[k] * asked.scale));
-            enough.push_back(fmt::format("{:.0f}", std::ceil(needed[k] * least)));
+            enough.push_back(fmt::format("{:.0f}", in_pixels(needed[k])));
         }
     const bool both = given.size() == 2;
     fail(ErrorKind::usage, "{} {} no room for the picture; at least {} {}", join(given, " and "),
@@ -123,39 +151,31 @@ void take_letters(std::span<const Frame> frames, PictureStyle& style) {
 
 }  // namespace
 
-Drawing fitted(PictureStyle& style, const std::function<Drawing(const PictureStyle&)>& draw) {
+Drawing fitted(PictureStyle& style, const Draw& draw) {
     constexpr double step = 0.85;
-    constexpr double least = 0.5;  // smallest scale with legible letters
     constexpr int most = 12;
     const PictureStyle asked = style;
+    const bool requested = asked.width > 0 || asked.height > 0;
     std::optional<std::pair<Drawing, PictureStyle>> crowded;  // the first where only texts overlap
     for (int round = 0;; ++round) {
-        Drawing drawing = draw(style);
-        const auto fits_in = [](double& size, double room) {
-            if (room > 0 && size < room + 1) size = std::min(size, room);  // sizes are rounded up
-            return room <= 0 || size <= room;
-        };
-        const bool wide = fits_in(drawing.width, style.width);
-        const bool high = fits_in(drawing.height, style.height);
-        const Legibility text(drawing);
-        const bool fits = wide && high && text.inside;
-        const bool small = style.scale < least;
-        if (fits && text.apart && !small) return drawing;
-        if (fits && !crowded) crowded.emplace(drawing, style);
-        if ((small || round == most) && crowded && crowded->second.scale >= least) {
+        Trial trial(draw, style);
+        if (trial.fits && trial.apart) return std::move(trial.drawing);
+        if (trial.fits && !crowded) crowded.emplace(trial.drawing, style);
+        const bool last = requested ? style.scale <= least_scale : round == most;
+        if (last && crowded) {
             style = crowded->second;
             return std::move(crowded->first);
         }
-        const bool requested = asked.width > 0 || asked.height > 0;
-        if (round == most && !requested) return drawing;
-        if ((small && fits) || round == most) refuse_size(asked, style, least);
-        if (requested) {
-            style.scale *= step;
-            style.height /= step;
-            style.width /= step;
-        } else {
-            style.width = std::ceil(drawing.width / step);
+        if (last && !requested) return std::move(trial.drawing);
+        if (last) refuse_size(asked, style, draw);
+        if (!requested) {
+            style.width = std::ceil(trial.drawing.width / step);
+            continue;
         }
+        const double smaller = std::max(step * style.scale, least_scale);
+        style.width *= style.scale / smaller;
+        style.height *= style.scale / smaller;
+        style.scale = smaller;
     }
 }
 
