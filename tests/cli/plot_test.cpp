@@ -250,7 +250,7 @@ TEST(Plot, RefusesALocalDiscrepancyOfOtherPoints) {
     expect_refusal(box.shell(plot + "--generate random --draw cells"), 2,
                    "--draw: does not apply to");
     expect_refusal(box.shell(plot + "--generate random --width 300 --height 100"), 2,
-                   "--height: 100 leaves no room");
+                   "--width: 300 and --height: 100 leave no room for the picture; at least ");
     good(box.shell(plot + "far.csv --rescale"));
     EXPECT_EQ(box.shell("stipple generate random -n 5 -m 13 -f json | " + plot).code, 0);
 }
@@ -326,6 +326,7 @@ TEST(Plot, DarkIsDark) {
 TEST(Plot, RefusesLogarithmicAxesOfWhatHasNone) {
     const Sandbox box;
     good(box.shell("stipple generate random -n 100 -o p.csv"));
+    box.write("positive.csv", "0.1,30\n1,20\n100,10\n");
     good(box.shell("stipple analyze periodogram p.csv --max-frequency 4 --grid g.npy"));
     for (const std::string axis : {"--x-scale", "--y-scale"}) {
         for (const std::string chart : {"spectrum", "differential", "local-discrepancy"})
@@ -338,9 +339,14 @@ TEST(Plot, RefusesLogarithmicAxesOfWhatHasNone) {
         expect_refusal(box.run({"plot", "--generate", "halton", axis, "log"}), 3,
                        axis + ": a logarithmic axis cannot show this coordinate");
         expect_refusal(box.run({"plot", "g.npy", axis, "log"}), 2, axis + ": a picture of a table");
-        for (const std::string chart :
-             {"points", "density", "histogram", "distances", "radial", "pair-correlation"})
+        for (const std::string chart : {"histogram", "distances", "radial", "pair-correlation"})
             good(box.run({"plot", "p.csv", "--chart", chart, axis, "log"}));
+        for (const std::string chart : {"points", "density"}) {
+            good(box.run({"plot", "positive.csv", "--chart", chart, axis, "log"}));
+            // The picture shows the whole unit square, with zero.
+            expect_refusal(box.run({"plot", "p.csv", "--chart", chart, axis, "log"}), 3,
+                           axis + ": a logarithmic axis cannot show this coordinate");
+        }
         good(box.run({"plot", "p.csv", axis, "linear"}));
     }
 }
@@ -363,8 +369,8 @@ TEST(Plot, RefusesWhatIsNoPictureAndLeavesNoFile) {
     expect_refusal(box.run({"plot", "p.csv", "--width", "0"}), 2, "outside [120, 20000]");
     expect_refusal(box.run({"plot", "p.csv", "-f", "text", "--width", "0"}), 2,
                    "outside [20, 1000]");
-    expect_refusal(box.run({"plot", "p.csv", "--chart", "radial", "-f", "svg", "--height", "150"}),
-                   2, "--height: 150 leaves no room for the picture; at least 2");
+    expect_refusal(box.run({"plot", "p.csv", "--chart", "radial", "-f", "svg", "--height", "100"}),
+                   2, "--height: 100 leaves no room for the picture; at least 1");
     expect_refusal(box.run({"plot", "p.csv", "--set", "1"}), 2, "outside [0, 0]");
     expect_refusal(box.run({"plot", "p.csv", "--key", "value"}), 2, "--key");
     expect_refusal(box.run({"plot", "p.csv", "--y-scale", "cubic"}), 2, "linear, log");
@@ -676,15 +682,18 @@ TEST(Plot, SheetsFillTheSizeThatIsAskedFor) {
     EXPECT_EQ(places("--width 1600 --height 400"), (Grid{4, 1}));
     EXPECT_EQ(places("--width 400 --height 1600"), (Grid{1, 4}));
     EXPECT_EQ(places("--height 500"), (Grid{2, 2}));
-    for (const char* chart : {"points", "spectrum"}) {
-        const std::string plot = std::string("stipple plot p.json -o p.svg --chart ") + chart;
-        if (chart == std::string("points"))
-            expect_refusal(box.shell(plot + " --width 200 --height 100"), 2,
-                           "leaves no room for the picture; at least ");
-        expect_refusal(box.shell(plot + " --height 95"), 2, "leaves no room for the picture");
-    }
-    expect_refusal(box.shell("stipple plot p.json -o p.svg --width 130"), 2,
-                   "--width: 130 leaves no room for 2 frames in a row; at least 180 does");
+    // Sizes that are too small are refused, naming larger ones that do.
+    for (const auto& [size, names] :
+         {std::pair{"--width 200 --height 100", "--width $1 --height $2"},
+          {"--height 95", "--height $1"},
+          {"--width 130", "--width $1"}})
+        for (const char* chart : {"points", "spectrum"}) {
+            const std::string plot = std::string("stipple plot p.json -o p.svg --chart ") + chart;
+            const Outcome outcome = box.shell(plot + " " + size);
+            expect_refusal(outcome, 2, " no room for the picture; at least ");
+            const std::regex named(".*at least ([0-9]+)(?: and ([0-9]+))? do.*");
+            good(box.shell(plot + " " + std::regex_replace(outcome.err, named, names)));
+        }
     good(box.shell("stipple plot p.json --set 0 -o p.png --width 300 --height 900"));
     EXPECT_EQ(good(box.shell("python3 -c 'import struct; print(struct.unpack(\">II\", "
                              "open(\"p.png\", \"rb\").read()[16:24]))'")),

@@ -544,6 +544,19 @@ std::size_t times_drawn(const Drawing& drawing, std::string text) {
     return found;
 }
 
+/// Draws the picture in the size that a refusal names: "...; at least 398 and 133 do".
+void expect_size_suffices(const std::string& refusal, const Draw& draw) {
+    const std::string sizes = refusal.substr(refusal.find("at least ") + 9);
+    const double first = std::stod(sizes);
+    const auto second = sizes.find(" and ");
+    PictureStyle style{.width = first};
+    if (second != std::string::npos)
+        style.height = std::stod(sizes.substr(second + 5));
+    else if (refusal.find("--height") != std::string::npos)
+        std::swap(style.width, style.height);
+    EXPECT_EQ(error_of([&] { fitted(style, draw); }), "") << refusal;
+}
+
 }  // namespace
 
 // Pictures of all kinds with names of 5 to 60 letters, in all sizes: the requested size, or a
@@ -569,9 +582,13 @@ TEST(Chart, CutsNoTextOff) {
                 if (!refusal.empty()) {
                     EXPECT_TRUE(width == 120 || height > 0) << where;
                     ASSERT_THAT(refusal, HasSubstr("no room for the picture; at least ")) << where;
+                    expect_size_suffices(refusal, draw);
                     continue;
                 }
-                EXPECT_EQ(times_drawn(drawing, name), times) << where;
+                // Of two words below a narrow axis, the second may be left out, as a whole.
+                const std::size_t words = kind == "chart 1true" ? 1 : kind == "chart 3true" ? 3 : 0;
+                EXPECT_LE(times_drawn(drawing, name), times) << where;
+                EXPECT_GE(times_drawn(drawing, name) + (width == 120 ? words : 0), times) << where;
                 EXPECT_GE(style.scale, 0.5) << where;
                 const double wide = drawing.width * style.scale;
                 const double high = drawing.height * style.scale;
@@ -602,7 +619,8 @@ TEST(Chart, PanelsHaveLetters) {
     Chart chart{.title = "T"};
     const auto texts = [&](std::optional<std::size_t> letter) {
         std::string all;
-        for (const Label* label : shapes_of<Label>(draw_chart(chart, {.letter = letter})))
+        const Drawing drawing = draw_chart(chart, {.letter = letter});
+        for (const Label* label : shapes_of<Label>(drawing))
             if (label->bold) all += label->text + "|";
         return all;
     };
