@@ -687,8 +687,12 @@ TEST(Plot, SheetsFillTheSizeThatIsAskedFor) {
          {std::pair{"--width 200 --height 100", "--width $1 --height $2"},
           {"--height 95", "--height $1"},
           {"--width 130", "--width $1"}})
-        for (const char* chart : {"points", "spectrum"}) {
-            const std::string plot = std::string("stipple plot p.json -o p.svg --chart ") + chart;
+        for (const std::string chart : {"points", "spectrum"}) {
+            const std::string plot = "stipple plot p.json -o p.svg --chart " + chart;
+            if (chart == "spectrum" && size == std::string("--width 130")) {
+                good(box.shell(plot + " " + size));  // has fewer texts
+                continue;
+            }
             const Outcome outcome = box.shell(plot + " " + size);
             expect_refusal(outcome, 2, " no room for the picture; at least ");
             const std::regex named(".*at least ([0-9]+)(?: and ([0-9]+))? do.*");
