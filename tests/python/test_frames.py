@@ -2,6 +2,7 @@
 """Tables of pandas and polars as points, and points as tables."""
 
 import json
+import re
 import sys
 import types
 
@@ -162,3 +163,54 @@ def test_missing_libraries_are_named(monkeypatch):
         monkeypatch.setitem(sys.modules, name, None)
         with pytest.raises(stipple.Error, match=f"the package {name}, which is not installed"):
             stipple.generate("random", 4, as_frame=name)
+
+
+TYRES = {"parameters": [{"name": "tyre", "levels": ["dry", "wet", "snow"], "probabilities": [6, 3, 1]},
+                        {"name": "speed", "range": [20, 90]}]}
+
+
+# The numbers of words are those of the parameter, as for the program, whatever the table's own order.
+def test_words_and_columns_are_matched_to_parameters_by_name(run, tmp_path):
+    import pandas
+
+    (tmp_path / "p.json").write_text(json.dumps(TYRES))
+    domain = f"parameters:file={tmp_path / 'p.json'}"
+    points = stipple.generate("random", 1000, parameters=TYRES, return_meta=True)
+    table = points.to_pandas()
+    table.to_csv(tmp_path / "q.csv", index=False)
+    file = pandas.read_csv(tmp_path / "q.csv", float_precision="round_trip")
+    out = run("analyze", "chi-square", tmp_path / "q.csv", "--parameters", tmp_path / "p.json", "--cells=30")
+    right = stipple.analyze("chi-square:cells=30", points)
+    assert right.statistic == float(re.search(rb'"statistic": ([\d.]+)', out)[1])
+    with pytest.warns(stipple.Note, match="0 dry, 1 snow, 2 wet"):
+        read = stipple.read(tmp_path / "q.csv")
+    words = table["tyre"].cat
+    told = [file, file[["speed", "tyre"]], file.assign(cost=1.0), read]
+    known = [table, table.astype({"tyre": object}), table[["speed", "tyre"]],
+             table.assign(tyre=words.reorder_categories(["snow", "dry", "wet"])),
+             table.assign(tyre=words.set_categories(["ice", "wet", "snow", "dry"]))]
+    for one in told + known:
+        on = domain if any(one is each for each in told) else None
+        assert stipple.analyze("chi-square:cells=30", one, domain=on).statistic == right.statistic
+    for one in known + [file]:
+        assert np.array_equal(stipple.inverse(one, domain), stipple.inverse(points, domain))
+        stipple.write(tmp_path / "back.csv", one, domain=domain)
+        assert (tmp_path / "back.csv").read_text() == (tmp_path / "q.csv").read_text()
+    for one in known:
+        assert stipple.plot(one).svg == stipple.plot(table).svg
+    rainy = table[table["tyre"] != "dry"].astype({"tyre": object})
+    assert {*stipple.inverse(rainy, domain)[:, 0]} == {*stipple.inverse(points[points[:, 0] > 0], domain)[:, 0]}
+
+
+@pytest.mark.parametrize("change,message", [
+    ({"tyre": ["wet", "ice"]}, r"x\['tyre'\]\[1\] is 'ice'; expected one of dry, wet, snow"),
+    ({"speed": ["fast", "slow"]}, r"x\['speed'\]\[0\] is 'fast'; expected a number"),
+    ({"tyre": None, "tire": ["wet", "dry"]}, "x has no column 'tyre', as the domain has; its columns are speed, tire"),
+])
+def test_tables_that_are_not_of_the_parameters_are_refused(library, change, message):
+    _, frame = library
+    columns = {"tyre": ["wet", "dry"], "speed": [30.0, 40.0]} | change
+    table = frame({key: values for key, values in columns.items() if values})
+    with pytest.raises(stipple.Error, match=message) as caught:
+        stipple.analyze("moments", table, domain=f"parameters:json=[{json.dumps(TYRES)}]")
+    assert caught.value.kind == "input"

@@ -181,7 +181,8 @@ def listed(name: str, value: object) -> list[str]:
 
 def wholes(name: str, value: object, low: int = 1, high: int = MOST) -> list[int]:
     """Whole numbers: one, or several."""
-    if isinstance(value, (str, bytes)) or not isinstance(value, Iterable) or hasattr(value, "__index__"):
+    single = hasattr(value, "__index__") and np.ndim(value) == 0  # type: ignore[arg-type]
+    if isinstance(value, (str, bytes)) or not isinstance(value, Iterable) or single:
         return [whole(name, value, low, high)]
     found = [whole(f"{name}[{i}]", one, low, high) for i, one in enumerate(value)]
     return found or refuse(name, value, "at least one number")

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import copy
 import json
+import os
 from collections.abc import Callable
 from typing import Any, Literal, TypeAlias
 
@@ -192,6 +193,147 @@ def as_rows(x: ArrayLike, name: str = "x", most: int = 2) -> Floats:
     return rows.view(np.ndarray)
 
 
+def _content_of(settings: str) -> dict[str, Any]:
+    """The content of the parameters of a domain, given by file=... or json=[...]."""
+    key, _, value = settings.partition("=")
+    value = value[1:-1] if value[:1] == "[" and value[-1:] == "]" else value
+    if key == "file":
+        spec, _ = _stipple.parameters(os.fsencode(value))
+        value = spec.partition("=[")[2][:-1]
+    try:
+        content = json.loads(value)
+    except ValueError as error:
+        raise Error(f"domain: no content of a parameter file: {error}", "input") from None
+    return content if isinstance(content, dict) else {}
+
+
+def _factors(domain: str) -> list[str]:
+    """The factors of a product; " x " in brackets separates none."""
+    factors: list[str] = []
+    for part in domain.split(" x "):
+        if factors and factors[-1].count("[") > factors[-1].count("]"):
+            factors[-1] += f" x {part}"
+        else:
+            factors.append(part)
+    return factors
+
+
+def _names_of(domain: str, d: int) -> tuple[list[str | None], dict[str, list[str]]]:
+    """The names of a domain's coordinates, None where it has none, and their levels. Parameters
+    that are the whole domain may be fewer or more than d."""
+    names: list[str | None] = [None] * d
+    levels: dict[str, list[str]] = {}
+    for factor in _factors(domain):
+        head, _, settings = factor.partition(":")
+        unit, _, places = head.partition("@")
+        if unit != "parameters":
+            continue
+        entries = _content_of(settings).get("parameters", [])
+        if not all(isinstance(entry, dict) and isinstance(entry.get("name"), str) for entry in entries):
+            continue  # the library says what is wrong
+        if not places:
+            names = [None] * len(entries)
+        coordinates = [int(place) - 1 for place in places.split(",")] if places else [*range(len(entries))]
+        for place, entry in zip(coordinates, entries):
+            if 0 <= place < len(names):
+                names[place] = entry["name"]
+            if any(isinstance(word, str) for word in entry.get("levels", [])):
+                levels[entry["name"]] = entry["levels"]
+    return names, levels
+
+
+def _order(names: list[str], wanted: list[str | None], name: str) -> list[int] | None:
+    """The places of the wanted names; columns without them are taken in order. None: names that
+    carry no meaning, such as x, y, are not those of the domain."""
+    missing = [key for key in wanted if key is not None and key not in names]
+    if not missing:
+        others = (k for k, key in enumerate(names) if key not in wanted)
+        return [next(others) if key is None else names.index(key) for key in wanted]
+    if _frames.kept_names(names):
+        raise Error(f"{name} has no column {missing[0]!r}, as the domain has; its columns are "
+                    f"{', '.join(names)}", "input")
+    return [*range(len(names))] if len(names) == len(wanted) else None
+
+
+def _renumbered(column: Floats, words: list[str], levels: list[str], where: str) -> Floats:
+    """Places of a column's words, which are given by their places in `words`, among the levels."""
+    places = {word: place for place, word in enumerate(levels)}
+    known = np.array([places.get(word, -1) for word in words] + [-1], dtype=np.float64)
+    is_place = (column >= 0) & (column < len(words)) & (column == np.floor(column))
+    found: Floats = known[np.where(is_place, column, len(words)).astype(int)]
+    if (found < 0).any():
+        i = int(np.argmin(found))
+        value = words[int(column[i])] if is_place[i] else column[i]
+        expected = f"one of {', '.join(levels)}" if levels else "a number"
+        raise Error(f"{where}[{i}] is {shown(value)}; expected {expected}", "input")
+    return found
+
+
+def matched(one: Given, name: str = "x") -> Given:
+    """Points whose columns and words are those of their domain, found by name."""
+    rows, domain, text_of_meta = one
+    meta = json.loads(text_of_meta) if text_of_meta else {}
+    names, words = meta.get("columns"), meta.get("levels") or {}
+    if "parameters" not in domain or not names or len(names) != rows.shape[1]:
+        return one
+    wanted, levels = _names_of(domain, len(names))
+    order = _order(names, wanted, name) if any(wanted) else None
+    if order is None:
+        return one
+    kept = rows[:, order]
+    columns = [names[place] if key is None else key for key, place in zip(wanted, order)]
+    for k, place in enumerate(order):
+        own = words.get(names[place])
+        if own and wanted[k] is None:
+            levels[columns[k]] = own
+        elif own and own != levels.get(columns[k]):
+            kept[:, k] = _renumbered(kept[:, k], own, levels.get(columns[k], []),
+                                     f"{name}[{names[place]!r}]")
+    meta |= {"columns": columns, "levels": levels}
+    return np.ascontiguousarray(kept), domain, json.dumps(meta)
+
+
+def alike(sets: list[tuple[str, Given]]) -> list[Given]:
+    """Sets that are shown or written together: columns in the order of the first set, and equal
+    words with equal numbers."""
+    metas = [json.loads(one[2]) if one[2] else {} for _, one in sets]
+    named = [k for k, meta in enumerate(metas) if _frames.kept_names(meta.get("columns") or [])]
+    levels: dict[str, list[str]] = {}
+    for k in sorted(named, key=lambda k: "parameters" not in sets[k][1][1]):
+        for key, words in (metas[k].get("levels") or {}).items():
+            known = levels.setdefault(key, [])
+            known.extend(word for word in words if word not in known)
+    found = [one for _, one in sets]
+    for k in named:
+        found[k] = _as_first(sets[k], metas[k], (sets[named[0]][0], metas[named[0]]["columns"]), levels)
+    return found
+
+
+def _as_first(given_set: tuple[str, Given], meta: dict[str, Any], first: tuple[str, list[str]],
+              levels: dict[str, list[str]]) -> Given:
+    name, (rows, domain, _) = given_set
+    names, own = meta["columns"], meta.get("levels") or {}
+    order = [names.index(key) for key in first[1]] if sorted(names) == sorted(first[1]) else []
+    on = domain if names == first[1] else _domain_of_columns(domain, len(names), order) if order else None
+    if on is None:
+        raise Error(f"{name} has the columns {', '.join(names)}, and {first[0]} {', '.join(first[1])}; "
+                    "expected the same", "input")
+    kept = rows[:, order]
+    for k, key in enumerate(first[1]):
+        words = own.get(key, [])
+        if words == levels.get(key, words):
+            continue
+        if "parameters" in domain and words != levels[key][:len(words)]:
+            raise Error(f"{name}[{key!r}] has the levels {', '.join(words)}, and another set "
+                        f"{', '.join(levels[key])}", "input")
+        if words:
+            kept[:, k] = _renumbered(kept[:, k], words, levels[key], f"{name}[{key!r}]")
+    meta |= {"columns": first[1], "domain": on}
+    if own:
+        meta["levels"] = {key: levels[key] for key in first[1] if key in levels}
+    return np.ascontiguousarray(kept), on, json.dumps(meta)
+
+
 def _with_domain(rows: Floats, meta: Any, domain: object, name: str) -> Given:
     """Rows with the given domain or, without one, that of the meta."""
     meta = meta if isinstance(meta, dict) else {}
@@ -200,7 +342,7 @@ def _with_domain(rows: Floats, meta: Any, domain: object, name: str) -> Given:
         words = json.dumps(meta) if meta else ""
     except Exception:
         raise Error(f"{name}.meta is {shown(meta)}; expected what JSON can hold") from None
-    return rows, text("domain", on, 'the name of a domain, such as "disk"'), words
+    return matched((rows, text("domain", on, 'the name of a domain, such as "disk"'), words), name)
 
 
 def sets_of(x: Any, name: str = "x", domain: object = None) -> tuple[list[Given], bool]:
@@ -220,9 +362,22 @@ def sets_of(x: Any, name: str = "x", domain: object = None) -> tuple[list[Given]
     return [_with_domain(one, each, domain, name) for one, each in zip(rows, metas)], True
 
 
+def _domain_recorded(frame: Any, names: list[str]) -> str | None:
+    """The domain that a table records, of the columns that it still has."""
+    domain, columns = _frames.recorded(frame) or ("", [])
+    if names == columns or "parameters" in domain and sorted(names) == sorted(columns):
+        return domain or None
+    if not domain or not {*names} <= {*columns}:
+        return None
+    return _domain_of_columns(domain, len(columns), [columns.index(key) for key in names])
+
+
 def given(x: Any, name: str = "x", domain: object = None) -> Given:
     """One set of points."""
     if _frames.is_frame(x):
         rows, meta = _frames.taken(x, name)
+        recorded = _domain_recorded(x, meta["columns"]) if domain is None else None
+        if recorded:
+            meta["domain"] = recorded
         return _with_domain(as_rows(rows, name), meta, domain, name)
     return _with_domain(as_rows(x, name), getattr(x, "meta", None), domain, name)

@@ -61,9 +61,37 @@ def _column(name: str, key: str, column: Any) -> tuple[Floats, list[str]]:
     return np.array(numbers, dtype=np.float64), words
 
 
+def default_names(d: int) -> list[str]:
+    return ["x", "y", "z"][:d] if d < 4 else [f"x{k + 1}" for k in range(d)]
+
+
+def is_word(text: str) -> bool:
+    """Whether a header can hold a name, or a file a word, so that it is read back: no number, and
+    no text with quotes or control characters."""
+    try:
+        float(text)
+        return False
+    except ValueError:
+        plain = text == text.strip() and '"' not in text and text.isprintable()
+        return plain and 0 < len(text.encode("utf-8", "replace")) <= 200 and text[0] not in "#[{"
+
+
+def kept_names(names: list[str]) -> list[str]:
+    """Names that carry a meaning; none if they are the default ones, or if one is no name."""
+    return names if names != default_names(len(names)) and all(map(is_word, names)) else []
+
+
+def recorded(frame: Any) -> tuple[str, list[str]] | None:
+    """The domain that Points.to_pandas() recorded, and the names of its columns."""
+    kept = getattr(frame, "attrs", None)
+    kept = kept.get("stipple") if isinstance(kept, dict) else None
+    known = isinstance(kept, dict) and isinstance(kept.get("domain"), str) and "columns" in kept
+    return (kept["domain"], list(kept["columns"])) if known else None
+
+
 def taken(frame: Any, name: str) -> tuple[Floats, dict[str, Any]]:
-    """The numbers of a table (n, d), and the meta of its points: names of the columns, words of
-    categorical columns, and the domain if Points.to_pandas() recorded it for these columns."""
+    """The numbers of a table (n, d), and the meta of its points: names of the columns, and words of
+    categorical columns. Columns 0, 1, ... of pandas have no names."""
     try:
         keys = list(frame.columns)
     except Exception:
@@ -72,17 +100,13 @@ def taken(frame: Any, name: str) -> tuple[Floats, dict[str, Any]]:
     for i, key in enumerate(names):
         if key in names[:i]:
             raise Error(f"{name} has two columns {key!r}", "input")
-    meta: dict[str, Any] = {"columns": names}
+    meta: dict[str, Any] = {"columns": default_names(len(keys)) if keys == [*range(len(keys))] else names}
     columns = []
-    for key, word in zip(keys, names):
-        numbers, words = _column(name, word, frame[key])
+    for key, shown_key, word in zip(keys, names, meta["columns"]):
+        numbers, words = _column(name, shown_key, frame[key])
         columns.append(numbers)
         if words:
             meta.setdefault("levels", {})[word] = words
-    kept = getattr(frame, "attrs", None)
-    kept = kept.get("stipple") if isinstance(kept, dict) else None
-    if isinstance(kept, dict) and kept.get("columns") == names and "domain" in kept:
-        meta["domain"] = kept["domain"]
     rows = np.column_stack(columns) if columns else np.zeros((0, 0))
     return np.ascontiguousarray(rows), meta
 
@@ -93,7 +117,7 @@ def _columns(points: Points) -> dict[str, tuple[Floats, list[str]]]:
     if points.ndim != 2:
         raise Error(f"the points have the shape {points.shape}; a table is of one set (n, d)")
     d = points.shape[1]
-    names = meta.get("columns") or (["x", "y", "z"][:d] if d < 4 else [f"x{k + 1}" for k in range(d)])
+    names = meta.get("columns") or default_names(d)
     levels = meta.get("levels", {})
     rows = np.asarray(points)
     return {name: (rows[:, k], levels.get(name, [])) for k, name in enumerate(names)}

@@ -38,7 +38,7 @@ from ._arguments import (
     whole_or_none,
     wholes,
 )
-from ._arrays import Given, Points, as_rows, given, sets_of, with_meta
+from ._arrays import Given, Points, alike, as_rows, given, matched, sets_of, with_meta
 from ._errors import Error
 from ._frames import Frame
 from ._reports import Page, Picture, Report
@@ -240,6 +240,14 @@ def warp(x: PointsLike, warp: Unit, *, threads: int = 0, max_memory: float = 0,
     return with_meta(images, meta if sets[1] else meta[0])
 
 
+def _on_images(spec: str, settings: _stipple.Settings, one: Given) -> Given:
+    """Points on the domain of a warp's images, unless they have a domain."""
+    rows, domain, meta = one
+    if domain != "unit-cube":
+        return one
+    return matched((rows, _stipple.domain_of_images(spec, settings, rows.shape[-1]), meta))
+
+
 def inverse(x: PointsLike, warp: Unit, *, threads: int = 0, max_memory: float = 0,
             progress: Progress = None, **options: Option) -> Floats:
     """The points of the unit cube that a warp maps to x: an array (n, d) or (sets, n, d). Arguments
@@ -248,10 +256,7 @@ def inverse(x: PointsLike, warp: Unit, *, threads: int = 0, max_memory: float = 
     settings, spec = settings_of(options), spec_text("warp", warp)
 
     def preimage(k: int, one: Given) -> Floats:
-        rows, domain, meta = one
-        if domain == "unit-cube":
-            domain = _stipple.domain_of_images(spec, settings, rows.shape[-1])
-        return _stipple.warp(spec, settings, (rows, domain, meta), True, how)[0]
+        return _stipple.warp(spec, settings, _on_images(spec, settings, one), True, how)[0]
 
     found: Floats = _each_set(sets_of(x), preimage)
     return found
@@ -262,7 +267,9 @@ def pdf(x: PointsLike, warp: Unit, **options: Option) -> Floats:
     domain: an array (n,), or (sets, n); 0 outside the domain. Arguments as for warp()."""
     settings, spec = settings_of(options), spec_text("warp", warp)
     found: Floats = _each_set(
-        sets_of(x), lambda k, one: _stipple.warp_density(spec, settings, one[0])
+        sets_of(x),
+        lambda k, one: _stipple.warp_density(
+            spec, settings, (_on_images(spec, settings, one) if one[2] else one)[0]),
     )
     return found
 
@@ -560,13 +567,14 @@ def _named(x: Any) -> list[tuple[str, Given]]:
     sets = x if isinstance(x, Mapping) else {"points": x}
     if not sets:
         raise Error("x is empty; expected points, or a dictionary of points by name")
-    found = [(text("a name in x", name), given(one, "x" if sets is not x else f"x[{name!r}]"))
-             for name, one in sets.items()]
+    names = [text("a name in x", name) for name in sets]
+    places = [f"x[{name!r}]" if sets is x else "x" for name in sets]
+    found = [(place, given(one, place)) for place, one in zip(places, sets.values())]
     dimensions = {one[0].shape[1] for _, one in found}
     if len(dimensions) > 1:
         raise Error(f"x has sets of {' and '.join(map(str, sorted(dimensions)))} coordinates; "
                     "expected sets of one dimension", "input")
-    return found
+    return list(zip(names, alike(found)))
 
 
 def report(path: Path, x: PointsLike | Mapping[str, PointsLike], *, threads: int = 0,
