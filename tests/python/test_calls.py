@@ -582,3 +582,15 @@ def test_wrong_calls_from_eight_threads_are_refused_in_each():
     for thread in threads:
         thread.join()
     assert not wrong
+
+
+def test_arrays_of_numpy_are_counts_and_contents_of_parameters():
+    counts, dimensions = np.array([16, 32]), np.array([2, 3])
+    assert stipple.study("random", "moments", n=counts, d=dimensions) == stipple.study(
+        "random", "moments", n=[16, 32], d=[2, 3])
+    with pytest.raises(stipple.Error, match=r"n\[0\] is 16.0"):
+        stipple.study("random", "moments", n=np.array([16, 0.5]))
+    entry = {"name": "a", "range": [2, 3]}
+    given = {"parameters": [entry | {"range": np.array([2, 3])}, {"name": "k", "integers": [np.int64(1), 4]}]}
+    plain = {"parameters": [entry, {"name": "k", "integers": [1, 4]}]}
+    assert np.array_equal(*(stipple.generate("sobol", 8, parameters=one) for one in (given, plain)))

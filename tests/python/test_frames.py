@@ -150,6 +150,10 @@ def test_tables_of_pandas_know_their_domain():
     assert stipple.analyze("chi-square", table[:32])._record[3] == "disk"
     with pytest.raises(stipple.Error, match="outside the domain unit-cube"):
         stipple.analyze("moments", table[["y", "x"]])
+    some = stipple.generate("sobol", 64, parameters=PARAMETERS, as_frame=True)[["k", "a"]]
+    free = {"parameters": [PARAMETERS["parameters"][2], PARAMETERS["parameters"][0]]}
+    domain = f"parameters:json=[{json.dumps(free)}]"
+    assert stipple.analyze("chi-square", some) == stipple.analyze("chi-square", some.to_numpy(), domain=domain)
     assert stipple.warp(stipple.generate("random", 8), "sphere").to_pandas().columns.tolist() == ["x", "y", "z"]
     plain = stipple.Points((4, 2))
     plain[:] = 0.5
@@ -214,3 +218,44 @@ def test_tables_that_are_not_of_the_parameters_are_refused(library, change, mess
     with pytest.raises(stipple.Error, match=message) as caught:
         stipple.analyze("moments", table, domain=f"parameters:json=[{json.dumps(TYRES)}]")
     assert caught.value.kind == "input"
+
+
+@pytest.mark.parametrize("names,name", [(['a"b', "it's"], 'a"b'), (["1", "2"], "1"), ([1, 2], "1"), (["a", 7], "7"),
+                                        (["set", "b"], "set")])
+def test_names_that_files_cannot_hold_are_refused(names, name, tmp_path):
+    import pandas
+
+    table = pandas.DataFrame([[0.5, "u"], [0.25, "v"]], columns=names)
+    for file in ("a.csv", "a.tsv.gz", "a.json", "a.jsonl"):
+        with pytest.raises(stipple.Error, match=f"x has a column named '{re.escape(name)}', which a file cannot hold"):
+            stipple.write(tmp_path / file, table)
+    assert not list(tmp_path.iterdir())
+    words = pandas.DataFrame({"m": pandas.Categorical(["1", "2"]), "n": [1, 2]})
+    with pytest.raises(stipple.Error, match=r"x\['m'\] has the word '1', which a file cannot hold"):
+        stipple.write(tmp_path / "a.csv", words)
+    unnamed = pandas.DataFrame([[0.5, "u"], [0.25, "v"]])
+    stipple.write(tmp_path / "a.csv", unnamed)
+    assert (tmp_path / "a.csv").read_text() == "x,y\n0.5,u\n0.25,v\n"
+
+
+def test_words_become_numbers_with_a_note_only(library, tmp_path):
+    _, frame = library
+    table = frame({"m": ["u", "v"], "n": [1.0, 2.0]})
+    for file in ("a.npy", "a.txt"):
+        with pytest.warns(stipple.Note, match="written as numbers: m: 0 u, 1 v"):
+            stipple.write(tmp_path / file, table)
+
+
+def test_sets_shown_together_have_the_same_columns_and_words(tmp_path):
+    import pandas
+
+    first = pandas.DataFrame({"m": ["a", "b", "c"], "n": [1.0, 2.0, 3.0]})
+    second = pandas.DataFrame({"n": [4.0, 5.0], "m": ["c", "d"]})
+    alike = pandas.DataFrame({"m": [2, 3], "n": [4.0, 5.0]})
+    plain = pandas.DataFrame({"m": [0, 1, 2], "n": [1.0, 2.0, 3.0]})
+    circles = [stipple.plot(x).svg.count("<circle") for x in ({"a": first, "b": second}, {"a": plain, "b": alike})]
+    assert circles[0] == circles[1]
+    stipple.write(tmp_path / "two.csv", [first, second])
+    assert (tmp_path / "two.csv").read_text().endswith("0,c,3\n1,c,4\n1,d,5\n")
+    with pytest.raises(stipple.Error, match=r"x\['b'\] has the columns k, m, and x\['a'\] m, n; expected the same"):
+        stipple.plot({"a": first, "b": second.rename(columns={"n": "k"})})

@@ -83,10 +83,11 @@ def kept_names(names: list[str]) -> list[str]:
 
 def recorded(frame: Any) -> tuple[str, list[str]] | None:
     """The domain that Points.to_pandas() recorded, and the names of its columns."""
-    kept = getattr(frame, "attrs", None)
-    kept = kept.get("stipple") if isinstance(kept, dict) else None
-    known = isinstance(kept, dict) and isinstance(kept.get("domain"), str) and "columns" in kept
-    return (kept["domain"], list(kept["columns"])) if known else None
+    attrs = getattr(frame, "attrs", None)
+    kept = attrs.get("stipple") if isinstance(attrs, dict) else None
+    if not isinstance(kept, dict) or not isinstance(kept.get("domain"), str) or "columns" not in kept:
+        return None
+    return kept["domain"], list(kept["columns"])
 
 
 def taken(frame: Any, name: str) -> tuple[Floats, dict[str, Any]]:

@@ -7,6 +7,7 @@ import difflib
 import inspect
 import json
 import os
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, NamedTuple, Never, TypeAlias, TypeVar, overload
 
@@ -39,8 +40,8 @@ from ._arguments import (
     wholes,
 )
 from ._arrays import Given, Points, alike, as_rows, given, matched, sets_of, with_meta
-from ._errors import Error
-from ._frames import Frame
+from ._errors import Error, Note
+from ._frames import Frame, is_frame, is_word
 from ._reports import Page, Picture, Report
 
 PointsLike: TypeAlias = ArrayLike | Frame
@@ -58,12 +59,20 @@ def _only(call: Callable[..., object], unknown: Mapping[str, object]) -> None:
         raise Error(f"{call.__name__}() has no argument '{name}'", hint=hint)
 
 
+def _of_numpy(value: Any) -> Any:
+    """Numbers and arrays of NumPy as JSON has them."""
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    raise TypeError(f"{type(value).__name__} is no number, text or list")
+
+
 def _parameters_of(parameters: Parameters) -> tuple[str, int]:
     """The warp of a parameter file, given by its path or by its content, and its dimension."""
     if not isinstance(parameters, Mapping):
         return _stipple.parameters(os.fsencode(path_of("parameters", parameters)))
     try:
-        content = json.dumps({k: v for k, v in parameters.items() if k != "$schema"}, allow_nan=False)
+        content = json.dumps({k: v for k, v in parameters.items() if k != "$schema"},
+                             allow_nan=False, default=_of_numpy)
     except Exception as error:
         raise Error(f"parameters: no content of a parameter file: {error}") from None
     entries = parameters.get("parameters")
@@ -440,6 +449,29 @@ def read(path: Path, *, format: str = "", d: int = 0, single: bool = False, thre
     return points[0] if len(points) == 1 else points
 
 
+def _check_names(x: Any, sets: list[Given], format: str, header: bool, meta: bool) -> None:
+    """Refuses names and words that would not be read back; warns of words that the format has not."""
+    tables = x if isinstance(x, (list, tuple)) else [x]
+    for table, (rows, _, told) in zip(tables, sets):
+        known = json.loads(told) if told else {}
+        names, levels = known.get("columns") or [], known.get("levels") or {}
+        if is_frame(table) and len([*table.columns]) > rows.shape[1]:
+            raise Error(f"x has the columns {', '.join(map(str, table.columns))}, and its domain only "
+                        f"{', '.join(names)}; write these alone", "input")
+        texts = format in ("csv", "tsv")
+        for name in names if texts and header or meta or format in ("json", "jsonl") else []:
+            if not is_word(name) or name in ("set", "pdf", "weight"):
+                raise Error(f"x has a column named {name!r}, which a file cannot hold as a name; rename it",
+                            "input")
+        for name, word in ((name, word) for name in names for word in levels.get(name, [])):
+            if (texts or meta or format in ("json", "jsonl")) and not is_word(word):
+                raise Error(f"x[{name!r}] has the word {word!r}, which a file cannot hold as a word", "input")
+        if is_frame(table) and levels and not (texts or meta or format in ("json", "jsonl")):
+            places = "; ".join(f"{name}: {', '.join(f'{k} {word}' for k, word in enumerate(words))}"
+                               for name, words in levels.items())
+            warnings.warn(f"the file has no words, which are written as numbers: {places}", Note, 3)
+
+
 def write(path: Path, x: PointsLike | Iterable[PointsLike], *, domain: str | None = None,
           format: str = "", header: bool = True, meta: bool = False, single: bool = False,
           precision: int | None = None, threads: int = 0, max_memory: float = 0,
@@ -460,7 +492,12 @@ def write(path: Path, x: PointsLike | Iterable[PointsLike], *, domain: str | Non
     """
     _only(write, unknown)
     digits = whole_or_none("precision", precision, 0, 1000)
-    _stipple.write(os.fsencode(path_of("path", path)), sets_of(x, "x", domain)[0], text("format", format),
+    name, format = path_of("path", path), text("format", format)
+    sets, several = sets_of(x, "x", domain)
+    sets = alike([(f"x[{k}]" if several else "x", one) for k, one in enumerate(sets)])
+    _check_names(x, sets, format or name.removesuffix(".gz").removesuffix(".zst").rpartition(".")[2].lower(),
+                 flag("header", header), flag("meta", meta))
+    _stipple.write(os.fsencode(name), sets, format,
                    flag("header", header), flag("meta", meta), flag("single", single), digits,
                    run_options(threads, max_memory, progress))
 
