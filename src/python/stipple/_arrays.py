@@ -197,6 +197,8 @@ def _content_of(settings: str) -> dict[str, Any]:
     """The content of the parameters of a domain, given by file=... or json=[...]."""
     key, _, value = settings.partition("=")
     value = value[1:-1] if value[:1] == "[" and value[-1:] == "]" else value
+    if key not in ("file", "json"):
+        return {}
     if key == "file":
         spec, _ = _stipple.parameters(os.fsencode(value))
         value = spec.partition("=[")[2][:-1]
@@ -229,7 +231,10 @@ def _names_of(domain: str, d: int) -> tuple[list[str | None], dict[str, list[str
         if unit != "parameters":
             continue
         entries = _content_of(settings).get("parameters", [])
-        if not all(isinstance(entry, dict) and isinstance(entry.get("name"), str) for entry in entries):
+        if not isinstance(entries, list) or not all(
+            isinstance(entry, dict) and isinstance(entry.get("name"), str)
+            and isinstance(entry.get("levels", []), list) for entry in entries
+        ):
             continue  # the library says what is wrong
         if not places:
             names = [None] * len(entries)
@@ -280,6 +285,8 @@ def matched(one: Given, name: str = "x") -> Given:
     order = _order(names, wanted, name) if any(wanted) else None
     if order is None:
         return one
+    if names == wanted and words == levels:
+        return one
     kept = rows[:, order]
     columns = [names[place] if key is None else key for key, place in zip(wanted, order)]
     for k, place in enumerate(order):
@@ -313,6 +320,8 @@ def _as_first(given_set: tuple[str, Given], meta: dict[str, Any], first: tuple[s
               levels: dict[str, list[str]]) -> Given:
     name, (rows, domain, _) = given_set
     names, own = meta["columns"], meta.get("levels") or {}
+    if names == first[1] and all(words == levels[key] for key, words in own.items()):
+        return given_set[1]
     order = [names.index(key) for key in first[1]] if sorted(names) == sorted(first[1]) else []
     on = domain if names == first[1] else _domain_of_columns(domain, len(names), order) if order else None
     if on is None:
