@@ -26,7 +26,8 @@ double quantile(std::span<const double> sorted, double q) {
 constexpr double rounding = 0x1p-44;
 
 bool equal_but_for_rounding(double a, double b) {
-    return std::abs(a - b) <= rounding * std::max(std::abs(a), std::abs(b));
+    const double larger = std::max(std::abs(a), std::abs(b));
+    return std::isfinite(larger) && std::abs(a - b) <= rounding * larger;
 }
 
 /// a - b, or 0 if they are equal but for rounding.
