@@ -114,9 +114,9 @@ class Producer {
     void tell_found() const {
         const auto found = sets_.provenance(0, 0).found;
         if (target_.take || found.size() != 2 || found[0].first != "vector") return;
-        run_.notify(fmt::format("{}: found generating vector {}, figure of merit {} ({})",
-                                generator_.name, found[0].second, found[1].second,
-                                "squared worst-case error"));
+        run_.notify(fmt::format(
+            "{}: found generating vector {}, figure of merit {} (squared worst-case error)",
+            generator_.name, found[0].second, found[1].second));
     }
 
     /// Makes one set in memory: generates and warps it, and cuts out the shard.

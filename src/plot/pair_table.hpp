@@ -27,7 +27,7 @@ struct PairTable {
     [[nodiscard]] double at(std::size_t i, std::size_t j) const {
         return values[j * (j - 1) / 2 + i];
     }
-    /// Largest finite number; 0 if there is none.
+    /// The largest of the finite numbers, or 0 if none is finite.
     [[nodiscard]] double largest() const;
 };
 

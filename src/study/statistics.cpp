@@ -57,7 +57,7 @@ SampleSummary summarize(std::span<const double> sample) {
     std::vector<double> sorted(sample.begin(), sample.end());
     std::ranges::sort(sorted);
     s.median = quantile(sorted, 0.5);
-    // Of equal numbers a sum, which is rounded, would give an error.
+    // The mean of equal numbers is one of them: their sum is rounded, and would differ from them.
     const bool same = equal_but_for_rounding(sorted.front(), sorted.back());
     s.mean =
         same ? sorted[sorted.size() / 2] : std::accumulate(sample.begin(), sample.end(), 0.0) / n;
