@@ -247,7 +247,8 @@ int GenerateRequest::perform(Session& session) const {
     const Target target = target_of(*this);
     job.command = command_of(*this, job, target);
     produce(job, target, session.run());
-    return 0;
+    // A search that was interrupted has written its best points, but scripts must not go on.
+    return session.run().stop.stop_requested() ? 130 : 0;
 }
 
 namespace {

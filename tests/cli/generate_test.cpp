@@ -507,6 +507,24 @@ TEST(Generate, GoesOnWithTheThreadsThatStart) {
                   all);
 }
 
+// Scripts must not go on with points of an interrupted search, although it writes them.
+TEST(Generate, WritesTheBestPointsOfAnInterruptedSearchAndExits130) {
+    const Sandbox box;
+    for (const std::string search :
+         {"optimized -n 100 --effort", "latin-hypercube -n 60 --optimize maximin --effort"}) {
+        const Outcome outcome = box.shell(
+            "stipple generate " + search +
+            " 1000 -o p.csv --progress always 2> err & until grep -qs best err; do kill -0 $! || "
+            "break; sleep 0.02; done; kill -INT $!; wait $!; code=$?; tr '\\r' '\\n' < err | sed "
+            "-n "
+            "'s/.*stipple:/stipple:/p' >&2; rm err; exit $code");
+        EXPECT_EQ(outcome.code, 130) << search;
+        EXPECT_TRUE(outcome.err.starts_with("stipple: note: interrupted: ")) << outcome.err;
+        EXPECT_TRUE(outcome.err.ends_with(" so far\n")) << outcome.err;
+        EXPECT_GE(std::ranges::count(box.read("p.csv"), '\n'), 61) << search;
+    }
+}
+
 // Sanitizers change the use of memory.
 TEST(Generate, StreamsInLittleMemory) {
     if (sanitized()) GTEST_SKIP() << "sanitizers need memory of their own";

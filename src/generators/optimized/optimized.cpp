@@ -469,10 +469,9 @@ PointSet finished(OptimizedRows found, const Plan& plan, const Values& options,
     const bool ordered = options[order] && (!found.stopped || has_few_pairs(plan));
     const bool valued = !found.stopped || is_soon_judged(plan, options);
     if (found.stopped)
-        run.notify(fmt::format(
-            "interrupted: these are the best points so far, as recorded in their provenance{}{}",
-            valued ? "" : ", without their value",
-            options[order] && !ordered ? ", not ordered" : ""));
+        run.notify(fmt::format("interrupted: these are the best points so far{}{}",
+                               valued ? "" : ", without their value",
+                               options[order] && !ordered ? ", not ordered" : ""));
     if (ordered)
         found.rows = in_even_order(found.rows, plan.dimension, kept(options), order_kind(options),
                                    weights_of(options), last);

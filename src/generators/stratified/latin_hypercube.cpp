@@ -450,9 +450,8 @@ std::unique_ptr<Sequence> make_design(const Plan& plan, const Values& options,
     constexpr double few = 2e7;
     const bool soon = static_cast<double>(plan.count * plan.count * plan.dimension) <= few;
     if (result.stopped)
-        run.notify(fmt::format(
-            "interrupted: this is the best design so far, as recorded in its provenance{}",
-            soon ? "" : ", without its value"));
+        run.notify(fmt::format("interrupted: this is the best design so far{}",
+                               soon ? "" : ", without its value"));
     std::vector<std::pair<std::string, std::string>> found;
     if (!result.stopped || soon)
         found = search::described(task.objective, result.design, task.rules,
