@@ -209,8 +209,8 @@ class Study {
             if (e.kind() != ErrorKind::cancelled || !file.has_journal()) throw;
             fail_with_hint(
                 ErrorKind::cancelled,
-                fmt::format("finished measurements are in {0} and {0}.journal; --resume continues",
-                            path_),
+                fmt::format("{0} and {0}.journal hold {1} of {2} measurements; --resume continues",
+                            path_, file.units_written(), sweep_.units()),
                 "interrupted");
         }
         const StudyFailures& failed = file.failures();

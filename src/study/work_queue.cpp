@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
 
 namespace stipple {
 
@@ -41,10 +40,10 @@ WorkQueue::WorkQueue(const Sweep& sweep, std::vector<UnitRange> done, std::size_
         const Cell cell = sweep.cell(c);
         const double sets = sweep.seeded(cell.generator) ? seeds : 1;
         work_.push_back({.left = sets * set_cost(sweep, cell).all()});
+        cells_.push_back(c);
     }
-    cells_.resize(work_.size());
-    std::iota(cells_.begin(), cells_.end(), std::uint64_t{0});
     take_out(done_, std::nullopt);
+    early_ = workers == 1 ? HUGE_VAL : 0.05 * seconds_left();  // delays the end by less than this
     sort();
 }
 
@@ -89,7 +88,7 @@ void WorkQueue::sort() {
         seconds[cell] = piece.seconds > 1.001 * grain_ ? piece.seconds : 0;
     }
     std::ranges::sort(cells_, [&](std::uint64_t a, std::uint64_t b) {
-        return seconds[a] != seconds[b] ? seconds[a] < seconds[b] : a > b;
+        return seconds[a] != seconds[b] ? (seconds[a] < seconds[b]) == (early_ <= 0) : a > b;
     });
 }
 
@@ -97,7 +96,11 @@ std::optional<std::vector<UnitRange>> WorkQueue::pull() {
     while (!cells_.empty()) {
         const std::uint64_t cell = cells_.back();
         std::uint64_t& pulled = work_[cell].pulled;
-        std::uint64_t units = piece_of(cell).units;
+        auto [units, seconds] = piece_of(cell);
+        if (early_ > 0 && (early_ -= seconds / measured_ratio(work_[cell])) <= 0) {
+            sort();
+            continue;
+        }
         if (units > 1) units -= pulled % sweep_.measures().size();  // keeps sets whole
         units = std::min(units, sweep_.units_per_cell() - pulled);
         const std::uint64_t first = cell * sweep_.units_per_cell() + pulled;

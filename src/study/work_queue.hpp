@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Pieces of work of a study. Cells with long pieces come first, the longest first, so that none of
-// these is left when everything else is done. All others follow in the order of the study, so that
-// a stream can write its rows early.
+// Pieces of work of a study. The shortest come first, so that an early stop keeps rows; for several
+// workers only in the first twentieth of the work. Then the longest come first, so that none is
+// left when everything else is done. Short pieces are in the study's order, as streams need them.
 //
 // A piece is some sets of one cell or, if measuring a set costs more than making it again, one
 // measure of one set. Pieces take at most about a second if possible, so that little is lost by an
@@ -80,6 +80,7 @@ class WorkQueue {
     const Sweep& sweep_;
     std::vector<UnitRange> done_;
     double workers_;
+    double early_ = 0;  ///< modelled seconds of pieces that may still be pulled shortest first
     double grain_ = 0;  ///< seconds that a piece should take
     std::vector<CellWork> work_;
     CellWork all_;                      ///< `finished` and `spent` of all cells
