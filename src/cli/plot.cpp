@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <functional>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -373,8 +371,8 @@ class Plot {
             refuse_options(request_, "chart,set", "does not apply to the table of a study");
         plot::StudyChart found = plot::study_chart(means_, request_.key.value_or(""));
         if (!found.left_out.empty())
-            session_.warn(fmt::format("{} results are drawn; --key picks one: {}",
-                                      found.chart.panels.size(), join(found.left_out, "; ")));
+            session_.warn(fmt::format("{} results are drawn; --key draws others: {}",
+                                      found.chart.panels.size(), join(found.left_out, ", ")));
         add(std::move(found.chart));
     }
 

@@ -89,18 +89,22 @@ std::string name_of(const Topic& topic, std::span<const Topic> all) {
     return name;
 }
 
-/// The topics that match the key; without a key, those called "value" or, without any, all.
+/// The topics that match the key. Without a key: those called "value", then those of measures
+/// without a value.
 std::vector<Topic> topics_of(std::span<const MeanRow> means, const std::string& key) {
-    const bool values = std::ranges::any_of(
-        means, [](const MeanRow& row) { return last_part(row.key) == "value"; });
+    const auto is_value = [](const Topic& topic) { return last_part(topic.key) == "value"; };
+    std::set<std::string> valued;
+    for (const MeanRow& row : means)
+        if (is_value(topic_of(row))) valued.insert(row.measure);
     std::vector<Topic> topics;
     for (const MeanRow& row : means) {
-        const bool wanted = key.empty() ? !values || last_part(row.key) == "value"
+        const Topic topic = topic_of(row);
+        const bool wanted = key.empty() ? is_value(topic) || !valued.contains(row.measure)
                                         : row.key == key || names_result(row.key, key);
         if (!wanted || !std::isfinite(row.mean)) continue;
-        if (std::ranges::find(topics, topic_of(row)) == topics.end())
-            topics.push_back(topic_of(row));
+        if (std::ranges::find(topics, topic) == topics.end()) topics.push_back(topic);
     }
+    std::ranges::stable_partition(topics, is_value);
     return topics;
 }
 
@@ -150,11 +154,10 @@ StudyChart study_chart(std::span<const MeanRow> means, const std::string& key) {
     if (topics.empty()) fail(ErrorKind::input, "the study has no numbers to draw");
     StudyChart found;
     for (const Topic& topic : topics) {
-        const std::string name = name_of(topic, topics);
         if (found.chart.panels.size() < most_panels)
-            found.chart.panels.push_back(panel_of(topic, name, means));
-        else
-            found.left_out.push_back(name);
+            found.chart.panels.push_back(panel_of(topic, name_of(topic, topics), means));
+        else if (std::ranges::find(found.left_out, topic.key) == found.left_out.end())
+            found.left_out.push_back(topic.key);
     }
     const auto alike = [&](const auto& property) {
         return std::ranges::all_of(

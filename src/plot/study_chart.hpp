@@ -16,11 +16,11 @@ namespace stipple::plot {
 
 struct StudyChart {
     Chart chart;
-    std::vector<std::string> left_out;  ///< names of results beyond the limit of four panels
+    std::vector<std::string> left_out;  ///< keys of results beyond the limit of four panels
 };
 
 /// Draws a study's means. @param key a result's name, or a part of it between dots; empty: results
-/// called "value" or, without any, all results
+/// called "value", and all results of measures without a value
 /// @throws Error(usage) for an unknown key; Error(input) if there are no numbers
 StudyChart study_chart(std::span<const MeanRow> means, const std::string& key = {});
 

@@ -149,6 +149,22 @@ TEST(StudyChart, ResultsAndDimensionsHavePanels) {
     EXPECT_EQ(error_of([&] { study_chart(means); }), "input: the study has no numbers to draw");
 }
 
+// No measure is dropped silently: those without a result "value" show all that they have.
+TEST(StudyChart, EveryMeasureIsDrawnOrLeftOutByName) {
+    std::vector<MeanRow> means;
+    for (const char* key : {"minimum", "mean", "relative_radius", "pairs"})
+        means.push_back(mean_at(16, 1, 1, "a", key));
+    for (MeanRow& row : means) row.measure = "nearest-neighbor";
+    for (const char* key : {"value", "lower"}) means.push_back(mean_at(16, 1, 1, "a", key));
+    const auto [chart, left_out] = study_chart(means);
+    std::vector<std::string> names;
+    for (const ChartPanel& panel : chart.panels) names.push_back(panel.y_name);
+    EXPECT_THAT(names,
+                ElementsAre("star discrepancy", "minimum (nearest neighbor)",
+                            "mean (nearest neighbor)", "relative radius (nearest neighbor)"));
+    EXPECT_THAT(left_out, ElementsAre("pairs"));
+}
+
 TEST(StudyChart, CountsThatArePowersOfTwoAreNumberedSo) {
     const auto numbers = [](std::initializer_list<std::uint64_t> counts) {
         std::vector<MeanRow> means;
