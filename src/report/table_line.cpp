@@ -21,26 +21,6 @@ std::string json_name(std::string_view name) {
     return std::string("\"").append(name).append("\"");
 }
 
-/// Fields of a line of CSV; nullopt if a quote is not closed.
-std::optional<std::vector<std::string>> csv_fields(std::string_view line) {
-    std::vector<std::string> fields(1);
-    bool quoted = false;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        const char c = line[i];
-        if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
-            fields.back() += c;
-            ++i;
-        } else if (c == '"') {
-            quoted = !quoted;
-        } else if (c == ',' && !quoted) {
-            fields.emplace_back();
-        } else {
-            fields.back() += c;
-        }
-    }
-    return quoted ? std::nullopt : std::optional(fields);
-}
-
 std::string text_in(const Json& value) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_null()) return {};
@@ -62,6 +42,25 @@ std::optional<std::vector<std::string>> json_fields(std::string_view line,
 }
 
 }  // namespace
+
+std::optional<std::vector<std::string>> csv_fields(std::string_view line) {
+    std::vector<std::string> fields(1);
+    bool quoted = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const char c = line[i];
+        if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
+            fields.back() += c;
+            ++i;
+        } else if (c == '"' && (quoted || trim(fields.back()).empty())) {
+            quoted = !quoted;
+        } else if (c == ',' && !quoted) {
+            fields.emplace_back();
+        } else {
+            fields.back() += c;
+        }
+    }
+    return quoted ? std::nullopt : std::optional(fields);
+}
 
 std::string csv_field(std::string_view text) {
     if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);

@@ -587,6 +587,13 @@ TEST(Plot, LabelsAndAxesNameWhatIsDrawn) {
     std::string texts = xml(box, "p.svg", "text");
     for (const char* word : {"|One|", "|Two and more|", "|Three|", "|Width (mm)|", "|Höhe"})
         EXPECT_THAT("|" + texts, HasSubstr(word));
+    // Quotes as in CSV, but only around a whole name.
+    good(box.shell(three + R"(--labels 'A, "n = 1,""x""" ,5" wide' -o p.svg)"));
+    texts = "|" + xml(box, "p.svg", "text");
+    for (const char* word : {"|A|", "|n = 1,\"x\"|", "|5\" wide|"})
+        EXPECT_THAT(texts, HasSubstr(word));
+    expect_refusal(box.shell(three + R"(--labels 'A,"B,C' -o q.svg)"), 2,
+                   "--labels: a quote is not closed in 'A,\"B,C'");
     good(box.shell(three + "--labels A,B,C -o p.svg"));
     EXPECT_THAT(xml(box, "p.svg", "text"), HasSubstr("A|64 points"));
     good(box.shell(three + "--chart radial --labels A,B,C --axes 'f,P(f),dB' -o p.svg"));

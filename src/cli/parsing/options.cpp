@@ -96,14 +96,16 @@ void take(std::vector<std::uint64_t>& field, const CommonOption& common, const s
     field = parse_counts(text, "--" + common.option.name, 1, high);
 }
 
-/// For lists: appends specs, names between commas, or the text of a repeatable option.
+/// For lists: appends specs, names as a line of CSV, or the text of a repeatable option.
 void take(std::vector<std::string>& field, const CommonOption& common, const std::string& text) {
     if (common.value == "SPECS")
         std::ranges::move(split_specs(text, "--" + common.option.name), std::back_inserter(field));
     else if (common.repeatable)
         field.push_back(text);
-    else
-        for (const auto name : split(text, ',')) field.emplace_back(trim(name));
+    else if (const auto names = csv_fields(text); !names)
+        fail(ErrorKind::usage, "--{}: a quote is not closed in '{}'", common.option.name, text);
+    else if (!text.empty())
+        for (const std::string& name : *names) field.emplace_back(trim(name));
 }
 
 void take(std::vector<Spec>& field, const CommonOption&, const std::string& text) {
@@ -391,7 +393,8 @@ const std::vector<Row> rows = {
     {"--title", "TEXT", "", "title; default: from the provenance; '' for no title or subtitle",
      plot, &PlotRequest::title},
     {"--labels", "A,B,...", "",
-     "names of the sets or curves in legends and titles, in order; for a study, of its generators",
+     "names of the sets or curves in legends and titles, in order; for a study, of its generators; "
+     "quotes keep a comma: 'A,\"B, C\"'",
      plot, &PlotRequest::labels},
     {"--axes", "X,Y,...", "",
      "names of the axes: for points, of all coordinates; for curves, of x, then of y in each panel",
