@@ -130,11 +130,11 @@ std::optional<bool> take_value(std::string_view key, const Json& value, Provenan
     return std::nullopt;
 }
 
-/// Parses the value of one key and records a flaw if the value is invalid. Returns false for an
-/// unknown key.
+/// Parses the value of one key and records a flaw if the value is invalid; null is valid if the
+/// generator is not known. Returns false for an unknown key.
 bool take(std::string_view key, const Json& value, Provenance& to) {
     const auto good = take_value(key, value, to);
-    if (good == false && to.flaw.empty())
+    if (good == false && to.flaw.empty() && !(value.is_null() && to.generator.empty()))
         to.flaw = fmt::format("its {} cannot be {}", key, shown(json_text(value)));
     return good.has_value();
 }
@@ -143,17 +143,22 @@ bool take(std::string_view key, const Json& value, Provenance& to) {
 
 Json to_json(const Provenance& provenance) {
     Json meta{{"tool", "stipple"}, {"version", provenance.version}};
+    // Without a generator, default values are no facts.
+    const auto fact = [&, usual = Provenance()](auto Provenance::*field) {
+        const bool known = !provenance.generator.empty() || provenance.*field != usual.*field;
+        return known ? Json(provenance.*field) : Json();
+    };
     meta["generator"] = provenance.generator;
     Json& options = meta["options"] = Json::object();
     for (const auto& [name, text] : provenance.options) options[name] = typed(text);
-    meta["seed"] = provenance.seed;
+    meta["seed"] = fact(&Provenance::seed);
     meta["count"] = provenance.count;
     meta["dimension"] = provenance.dimension;
     if (!provenance.columns.empty()) meta["columns"] = provenance.columns;
     for (const auto& [column, words] : provenance.levels) meta["levels"][column] = words;
-    meta["start"] = provenance.start;
+    meta["start"] = fact(&Provenance::start);
     meta["warps"] = provenance.warps;
-    meta["domain"] = provenance.domain;
+    meta["domain"] = provenance.warps.empty() ? fact(&Provenance::domain) : Json(provenance.domain);
     if (!provenance.bounds.empty()) meta["bounds"] = provenance.bounds;
     if (!provenance.shard.empty()) meta["shard"] = provenance.shard;
     if (provenance.efficiency < 1) meta["efficiency"] = provenance.efficiency;

@@ -13,9 +13,9 @@
 namespace stipple::io {
 
 /// Always has the keys tool, version, generator, options, seed, count, dimension, start, warps,
-/// domain and command. Has columns, levels, bounds and shard if set; efficiency if points were
-/// dropped; precision and dtype if numbers were rounded; inputs if files were read; found if a
-/// search was made; stream_versions if above 1.
+/// domain and command; seed, start and domain are null if unknown. Has columns, levels, bounds and
+/// shard if set; efficiency if points were dropped; precision and dtype if numbers were rounded;
+/// inputs if files were read; found if a search was made; stream_versions if above 1.
 nlohmann::ordered_json to_json(const Provenance& provenance);
 
 /// Parses the known keys and ignores the others.

@@ -24,6 +24,23 @@ TEST(ProvenanceJson, HasTheKeysOfTheContract) {
     EXPECT_EQ(bare["options"], nlohmann::ordered_json::object());
 }
 
+// Points of unknown origin have no seed, no start and no domain, except what is recorded of them.
+TEST(ProvenanceJson, DoesNotInventWhatIsNotKnown) {
+    const auto bare = io::to_json({});
+    for (const char* key : {"seed", "start", "domain"}) EXPECT_TRUE(bare[key].is_null()) << key;
+    EXPECT_EQ(io::provenance_from(bare), Provenance{});
+    Provenance some;
+    some.seed = 7;
+    some.warps = {"owen:seed=3"};
+    EXPECT_EQ(io::to_json(some)["seed"], 7);
+    EXPECT_EQ(io::to_json(some)["domain"], "unit-cube");
+    some.generator = "halton";
+    EXPECT_EQ(io::to_json(some)["start"], 0);
+    auto lost = io::to_json(some);
+    lost["seed"] = nullptr;
+    EXPECT_EQ(io::provenance_from(lost).flaw, "its seed cannot be 'null'");
+}
+
 TEST(ProvenanceJson, OptionsHaveTheTypeThatTheyLookLike) {
     const auto options = io::to_json(some_provenance())["options"];
     EXPECT_TRUE(options["base"].is_number_integer());

@@ -346,7 +346,7 @@ def _as_first(given_set: tuple[str, Given], meta: dict[str, Any], first: tuple[s
 def _with_domain(rows: Floats, meta: Any, domain: object, name: str) -> Given:
     """Rows with the given domain or, without one, that of the meta."""
     meta = meta if isinstance(meta, dict) else {}
-    on = meta.get("domain", "unit-cube") if domain is None else domain
+    on = meta.get("domain") or "unit-cube" if domain is None else domain
     try:
         words = json.dumps(meta) if meta else ""
     except Exception:
