@@ -30,6 +30,7 @@
 #include "pipeline/chain.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/reproduction.hpp"
+#include "plot/drawing/drawing.hpp"
 #include "study/study_table.hpp"
 
 namespace stipple::cli {
@@ -113,7 +114,8 @@ std::shared_ptr<Spool> spooled(const std::string& pipe, const RunContext& run) {
 
 /// Reads the provenance from a picture by `stipple plot`; returns false for other files.
 bool take_plot(Original& original, std::string_view picture) {
-    const Json note = try_parse_json(io::picture_note(picture).value_or(""));
+    const Json note =
+        try_parse_json(io::picture_note(picture).value_or(plot::pdf_note(picture, "stipple")));
     if (!note.is_object() || note.contains("format") || !note.contains("command")) return false;
     original.plotted = note["command"].get<std::string>();
     if (!note.contains("meta"))
@@ -128,7 +130,7 @@ bool take_plot(Original& original, std::string_view picture) {
 bool take_carried(Original& original, std::string_view front, const RunContext& run) {
     std::optional<io::CarriedMeta> carried;
     const std::string beside = io::meta_path(original.path);
-    const bool picture = front.starts_with(png_magic);
+    const bool picture = front.starts_with(png_magic) || front.starts_with("%PDF-");
     const bool svg = front.starts_with("<svg") || front.starts_with("<?xml");
     original.drawn = front.starts_with("ply\n") || svg;
     if (picture || original.drawn) {

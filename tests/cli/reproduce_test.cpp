@@ -339,14 +339,14 @@ TEST(Reproduce, SaysWhatFilesWithoutPointsAre) {
 
 TEST(Reproduce, MakesThePointsOfAPictureAgain) {
     const Sandbox box;
-    good(
-        box.shell("stipple generate random -n 20 -w 'disk:center=[1,2]' -o p.json && stipple "
-                  "generate random -n 20 -o bare.csv && for f in svg png; do stipple plot p.json "
-                  "--title '<&>' -o p.$f && stipple plot bare.csv -o bare.$f; done"));
-    for (const std::string format : {"svg", "png"}) {
+    good(box.shell(
+        "stipple generate random -n 20 -w 'disk:center=[1,2]' -o p.json && stipple "
+        "generate random -n 20 -o bare.csv && for f in svg png pdf; do stipple plot p.json "
+        "--title '<&é𝄞>' -o p.$f && stipple plot bare.csv -o bare.$f; done"));
+    for (const std::string format : {"svg", "png", "pdf"}) {
         EXPECT_THAT(
             refusal(box, "p." + format),
-            HasSubstr("it was drawn by 'stipple plot p.json --title '<&>'' of the points of "
+            HasSubstr("it was drawn by 'stipple plot p.json --title '<&é𝄞>'' of the points of "
                       "'stipple generate random"));
         EXPECT_EQ(box.run({"reproduce", "p." + format, "-o", format + ".csv"}).code, 0);
         EXPECT_EQ(box.read(format + ".csv"), good(box.run({"convert", "p.json", "-f", "csv"})));

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <map>
 #include <new>
 
@@ -283,6 +284,23 @@ std::string pdf_bytes(const Drawing& drawing, double scale, const PictureNotes& 
             fmt::format("/{}{}", keyword == "Software" ? "Producer" : keyword, text_string(text));
     objects.push_back("<<" + information + ">>");
     return file_of(objects);
+}
+
+std::string pdf_note(std::string_view pdf, const std::string& keyword) {
+    const std::string begin = fmt::format("/{}<FEFF", keyword);
+    const auto at = pdf.rfind(begin);
+    if (at == pdf.npos) return {};
+    std::u32string letters;
+    for (pdf.remove_prefix(at + begin.size()); pdf.size() >= 4; pdf.remove_prefix(4)) {
+        std::uint32_t unit = 0;
+        if (std::from_chars(pdf.data(), pdf.data() + 4, unit, 16).ptr != pdf.data() + 4) break;
+        const bool second = unit >> 10 == 0x37 && !letters.empty() && letters.back() >> 10 == 0x36;
+        if (second)
+            letters.back() = 0x10000 + ((letters.back() & 0x3FF) << 10) + (unit & 0x3FF);
+        else
+            letters += unit;
+    }
+    return utf8_of(letters);
 }
 
 }  // namespace stipple::plot
