@@ -293,6 +293,8 @@ Words words_of(const SetsToMake& job, const Plan& plan, Language language, const
 
 }  // namespace
 
+bool can_emit(std::string_view unit) { return Template(library_c(), {}).has(unit); }
+
 std::string emitted(SetsToMake job, Language language, std::string name, const RunContext& run) {
     const Generator& generator = *job.generator;
     RunContext quiet = run;

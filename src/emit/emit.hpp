@@ -19,6 +19,9 @@ namespace stipple::emit {
 
 enum class Language { c, glsl, hlsl, python };
 
+/// Whether code can be emitted for a generator or warp of this name.
+bool can_emit(std::string_view unit);
+
 /// Text of the file.
 /// @param job generator, options, request, warps and command; the seeds of the examples are 1 to 3
 /// @param name of the function, and the beginning of all other names; empty: the generator's

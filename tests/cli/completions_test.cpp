@@ -95,6 +95,34 @@ TEST(Completions, OfBashKnowIntegrandsAndTheValuesInSpecs) {
     EXPECT_THAT(offered(box, "stipple list --q"), ElementsAre("--quiet"));
 }
 
+TEST(Completions, OfBashKnowListsKeysAndQuotes) {
+    const Sandbox box;
+    EXPECT_THAT(offered(box, "stipple analyze l2-discrepancy --kind star,ce"),
+                ElementsAre("star,centered"));
+    EXPECT_THAT(offered(box, "stipple analyze l2-discrepancy : kind = wr"),
+                ElementsAre("wraparound"));
+    EXPECT_THAT(offered(box, "stipple plot --draw ''"), ElementsAre("cells", "gap", "grid="));
+    EXPECT_THAT(offered(box, "stipple plot --draw cells,g"),
+                ElementsAre("cells,gap", "cells,grid="));
+    EXPECT_THAT(offered(box, "stipple analyze l2-discrepancy --keys ''"),
+                IsSupersetOf({"value", "squared"}));
+    EXPECT_THAT(offered(box, "stipple analyze star-discrepancy --keys value,up"),
+                ElementsAre("value,upper"));
+    EXPECT_THAT(offered(box, "stipple study random --analyze moments,dispersion --keys low"),
+                ElementsAre("lower"));
+    EXPECT_THAT(offered(box, "stipple analyze moments --check cube.l"),
+                ElementsAre("cube.largest_z"));
+    EXPECT_THAT(offered(box, R"(stipple plot --generate \'sobol:scramble=ow)"),
+                ElementsAre("sobol:scramble=owen"));
+    EXPECT_THAT(offered(box, R"(stipple study '"rank1-lattice -w cran')"),
+                ElementsAre("rank1-lattice -w cranley-patterson"));
+    EXPECT_THAT(offered(box, R"(stipple analyze \'moments\' --keys cube.ax)"),
+                ElementsAre("cube.axes"));
+    const auto emitted = offered(box, "stipple emit ''");
+    EXPECT_THAT(emitted, IsSupersetOf({"sobol", "halton", "jittered"}));
+    EXPECT_THAT(emitted, Not(Contains("poisson-disk")));
+}
+
 // The requests of shells; one candidate per line, with its help after a tab.
 TEST(Completions, NameAllThatThereIs) {
     const Sandbox box;

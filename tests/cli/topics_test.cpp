@@ -57,7 +57,9 @@ TEST(Topics, ExplainTerms) {
     EXPECT_GT(glossary_terms().size(), 60U);
     for (const std::string& term : glossary_terms()) EXPECT_NE(glossary_entry(term), "") << term;
     EXPECT_EQ(glossary_entry("NET"), glossary_entry("nets"));
-    for (const char* term : {"grey", "gray", "lens", "runs"}) EXPECT_NE(glossary_entry(term), "");
+    for (const char* term :
+         {"grey", "gray", "lens", "runs", "mpi", "threads", "stdin", "genz", "R"})
+        EXPECT_NE(glossary_entry(term), "") << term;
     EXPECT_EQ(good(box.run({"help", "elementary", "interval"})),
               good(box.run({"help", "elementary interval"})));
     const std::string strata = good(box.run({"help", "Strata"}));
@@ -67,6 +69,11 @@ TEST(Topics, ExplainTerms) {
     const std::string both = good(box.run({"help", "stratified"}));
     EXPECT_THAT(both, HasSubstr("\njittered: "));
     EXPECT_THAT(both, ::testing::StartsWith("stratified"));
+    // Blanks stand for hyphens of units and topics.
+    EXPECT_THAT(good(box.run({"help", "star", "discrepancy"})),
+                HasSubstr("\nstar-discrepancy: Star discrepancy, exact"));
+    EXPECT_EQ(good(box.run({"help", "choosing a sampler"})),
+              good(box.run({"help", "choosing-a-sampler"})));
     const Outcome typo = box.run({"help", "discrepency"});
     EXPECT_EQ(typo.code, 2);
     EXPECT_THAT(typo.err, HasSubstr("did you mean 'discrepancy'?"));

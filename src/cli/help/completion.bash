@@ -1,12 +1,14 @@
 # bash completion for stipple: asks the program.
 _stipple() {
-    local i words=() current=${COMP_WORDS[COMP_CWORD]}
+    local i word words=() current=${COMP_WORDS[COMP_CWORD]#[\'\"]}
     for ((i = 1; i <= COMP_CWORD; i++)); do
+        word=${COMP_WORDS[i]#[\'\"]}
+        ((i < COMP_CWORD)) && word=${word%[\'\"]}
         # bash parts --option=value and unit:option=value at these
-        if ((${#words[@]})) && [[ ${COMP_WORDS[i]} == [:=]* || ${COMP_WORDS[i - 1]} == *[:=] ]]; then
-            words[-1]+=${COMP_WORDS[i]}
+        if ((${#words[@]})) && [[ $word == [:=]* || ${COMP_WORDS[i - 1]} == *[:=] ]]; then
+            words[-1]+=$word
         else
-            words+=("${COMP_WORDS[i]}")
+            words+=("$word")
         fi
     done
     [[ $current == [:=] ]] && current=

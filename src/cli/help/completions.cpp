@@ -12,7 +12,9 @@
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "emit/emit.hpp"
 #include "math/integrands/integrands.hpp"
+#include "math/l2/kinds.hpp"
 
 namespace stipple::cli {
 
@@ -56,12 +58,33 @@ Candidates joined(Candidates one, const Candidates& two) {
     return one;
 }
 
+/// Candidates for the last item of a list between commas.
+Candidates in_list(Candidates found, const std::string& current) {
+    for (Candidate& candidate : found) candidate.word.insert(0, current, 0, current.rfind(',') + 1);
+    return found;
+}
+
 /// Candidates for the value of a unit's option; in a list, for its last item.
 Candidates values_of(const Option& option, const std::string& current = {}) {
     if (option.type == "file") return {files};
-    if (option.name != "integrand") return words_of(option.choices);
-    Candidates found = with_summaries(integrand_kinds());
-    for (Candidate& candidate : found) candidate.word.insert(0, current, 0, current.rfind(',') + 1);
+    if (option.name == "integrand") return in_list(with_summaries(integrand_kinds()), current);
+    if (option.name != "kind" || option.type != "text") return words_of(option.choices);
+    Candidates kinds = {{"all"}};
+    for (const l2::Kind kind : l2::all_kinds)
+        kinds.push_back({std::string(l2::record_of(kind).name)});
+    return in_list(std::move(kinds), current);
+}
+
+/// Results of the analyzers that a command names, after parts in capitals such as KIND.
+Candidates keys_in(const std::string& command) {
+    Candidates found;
+    for (const UnitInfo& unit : units_of("analyzers"))
+        for (const ResultKey& result : unit.results) {
+            const auto last = result.key.find_last_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ");
+            const auto begin = last == std::string::npos ? 0 : last + 2;
+            if (begin < result.key.size() && command.find(unit.name) != std::string::npos)
+                found.push_back({result.key.substr(begin), result.help});
+        }
     return found;
 }
 
@@ -105,6 +128,7 @@ Candidates values_of(const CommonOption& common, const std::string& current) {
     if (value == "S") return {{"random"}};
     if (value.starts_with("NAME[")) return joined(spec("warps"), spec("scrambles"));
     if (value == "SPEC") return joined({{"unit-cube"}}, spec("warps"));
+    if (common.option.name == "draw") return in_list({{"cells"}, {"gap"}, {"grid="}}, current);
     return values_of(common.option);
 }
 
@@ -145,10 +169,13 @@ Candidates option_names(Verb verb, const UnitInfo* unit) {
 }
 
 /// Candidates for the value of the option `before`; nullopt if it is a flag or no option.
-std::optional<Candidates> values_behind(const std::string& before, const std::string& current,
+std::optional<Candidates> values_behind(const std::vector<std::string>& words,
+                                        const std::string& before, const std::string& current,
                                         Verb verb, const UnitInfo* unit) {
     if (const CommonOption* common = find_common(before, verb)) {
         if (common->option.type == "flag") return std::nullopt;
+        if (common->value.find("KEY") != std::string::npos)
+            return in_list(keys_in(join(words, " ")), current);
         return values_of(*common, current);
     }
     if (unit != nullptr)
@@ -171,10 +198,13 @@ Candidates candidates(const std::vector<std::string>& words, const std::string& 
     const std::string* named = kind ? word_of_unit(typed, *kind, info->verb) : nullptr;
     const UnitInfo* unit =
         named ? find_unit(*kind, named->substr(0, named->find_first_of("@:,;"))) : nullptr;
-    if (const auto values = values_behind(before, current, info->verb, unit)) return *values;
+    if (const auto values = values_behind(words, before, current, info->verb, unit)) return *values;
     if (words.back().starts_with('-') && words.back() != "-") return option_names(info->verb, unit);
     if (!kind || unit != nullptr) return operands_of(info->verb, current);
-    return in_spec(kind->units, current, info->verb == Verb::analyze);
+    Candidates found = in_spec(kind->units, current, info->verb == Verb::analyze);
+    if (info->verb == Verb::emit && current.find(':') == std::string::npos)
+        std::erase_if(found, [](const Candidate& name) { return !emit::can_emit(name.word); });
+    return found;
 }
 
 }  // namespace
@@ -189,6 +219,14 @@ std::string complete(std::vector<std::string> words) {
         prefix = current.substr(0, equals + 1);
         before = current.substr(0, equals);
         current.erase(0, equals + 1);
+    }
+    const auto blank = current.rfind(' ');  // in a quoted generator with its options
+    if (blank != std::string::npos && (before.starts_with("--generat") || words[0] == "study")) {
+        prefix += current.substr(0, blank + 1);
+        words = {"generate"};
+        for (const auto word : split(current, ' ')) words.emplace_back(word);
+        before = words[words.size() - 2];
+        current = words.back();
     }
     std::string text;
     std::set<std::string> seen;

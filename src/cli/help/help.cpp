@@ -312,6 +312,12 @@ HelpPage page_of_topic(const Topic& topic) {
     return page;
 }
 
+/// "star discrepancy" as the name of a unit or topic.
+std::string hyphenated(std::string name) {
+    std::ranges::replace(name, ' ', '-');
+    return name;
+}
+
 const Topic* find_topic(const std::string& name) {
     const auto it = std::ranges::find(topics(), name, &Topic::name);
     return it == topics().end() ? nullptr : &*it;
@@ -329,7 +335,7 @@ const Topic* find_topic(const std::string& name) {
 std::string help_of_word(const std::string& name) {
     std::string found = filled_page(glossary_entry(name), text_columns());
     for (const Kind& kind : catalog()) {
-        const UnitInfo* unit = find_unit(kind, name);
+        const UnitInfo* unit = find_unit(kind, hyphenated(name));
         if (unit == nullptr) continue;
         if (const VerbInfo* info = find_verb(kind.verb))
             return found + (found.empty() ? "" : "\n") + page_of_unit(*info, *unit).text();
@@ -346,7 +352,7 @@ std::string help_of_word(const std::string& name) {
 std::string help_on(const std::vector<std::string>& words) {
     Arguments asked;
     if (words.empty()) return help_text(asked);
-    if (const Topic* topic = find_topic(words[0]); topic != nullptr && words.size() == 1)
+    if (const Topic* topic = find_topic(hyphenated(join(words, " "))))
         return filled_page(topic->text, text_columns());
     const VerbInfo* info = find_verb(words[0]);
     if (info == nullptr) return help_of_word(join(words, " "));
