@@ -165,6 +165,8 @@ TEST(Analyze, ChecksAndExpectationsSetTheExitCode) {
     EXPECT_EQ(code({"star-discrepancy", "--check", "value~1"}), 2);
     EXPECT_EQ(code({"chi-square", "--expect", "stratified"}), 0);
     EXPECT_EQ(code({"chi-square", "--expect", "uniform"}), 1);
+    EXPECT_EQ(code({"chi-square", "--expect", "non-uniform"}), 1);
+    EXPECT_EQ(code({"kolmogorov-smirnov", "--bounds", "0..2", "--expect", "non-uniform"}), 0);
     const Outcome failed = box.run({"analyze", "star-discrepancy", "h.csv", "--check", "value<0"});
     EXPECT_EQ(json::parse(failed.out)["analyzer"], "star-discrepancy");
     EXPECT_THAT(failed.err, HasSubstr("h.csv: value<0 does not hold: it is 0."));

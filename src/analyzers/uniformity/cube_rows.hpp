@@ -50,12 +50,12 @@ inline constexpr Param<double> level_option{
     .low_open = true,
     .help = "Significance level: p-values below it are significant for the verdict"};
 
+inline constexpr std::string_view uniformity_verdicts = "uniform|non-uniform|stratified";
+
 inline constexpr Param<Choice> expect_uniformity_option{
     .name = "expect",
-    .choices = "uniform|stratified",
+    .choices = uniformity_verdicts,
     .help = "Fail (exit code 1) if the verdict differs; stratified points are not 'uniform'"};
-
-inline constexpr std::string_view uniformity_verdicts = "uniform|non-uniform|stratified";
 
 /// Verdict from the tails on one or two grids: depends on which tail is smaller, and on whether the
 /// p-value is below the level.
