@@ -235,7 +235,7 @@ class Study {
         const auto means = summary_.means(table_.style(), summary_options_, run);
         const auto pairs = summary_.comparisons(table_.style(), summary_options_, run);
         if (file.is_stream()) {
-            const char* gap = table_.style() == TableStyle::csv ? "\n" : "";
+            const auto gap = table_.style() == TableStyle::csv ? "\n" + table_.preface() : "";
             file.finish(gap + means + gap + pairs, run);
             return;
         }

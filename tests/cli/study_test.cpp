@@ -649,6 +649,18 @@ TEST(Study, SaysWhichGeneratorsNeverDiffer) {
     EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1);
 }
 
+// On standard output, each table has its preface, as in files.
+TEST(Study, MetaStandsAboveEachTableOfAStream) {
+    const Sandbox box;
+    const std::string study = small + std::string("--meta --summary ");
+    good(box.shell(study + "-o s.csv"));
+    const std::string meta = lines(box.read("s.csv"), 3);
+    EXPECT_TRUE(meta.starts_with("# tool: "));
+    const std::string all = good(box.shell(study));
+    EXPECT_EQ(all, box.read("s.csv") + "\n" + box.read("s.summary.csv") + "\n" +
+                       box.read("s.comparisons.csv"));
+}
+
 // All rows are complete and kept; so is the journal, since the summary is missing.
 TEST(Study, StopsWhileItSumsUp) {
     const Sandbox box;
