@@ -241,17 +241,52 @@ std::string to_hlsl(std::string text) {
     return out;
 }
 
+bool in_name(char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < 128 && (std::isalnum(byte) != 0 || c == '_');
+}
+
 /// Checks the name of a function, and makes one of a generator's name.
 std::string function_name(std::string name, const std::string& generator) {
     if (name.empty()) {
         name = generator;
         std::ranges::replace(name, '-', '_');
     }
-    const bool valid = std::ranges::all_of(
-        name, [](unsigned char c) { return c < 128 && (std::isalnum(c) != 0 || c == '_'); });
+    const bool valid = std::ranges::all_of(name, in_name);
     if (!valid || std::isdigit(static_cast<unsigned char>(name[0])) != 0)
         fail(ErrorKind::usage, "--name: '{}' is not a name of letters, digits and _", name);
     return name;
+}
+
+/// Whether a text has this word.
+bool has_word(std::string_view text, std::string_view word) {
+    for (auto at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
+        const std::size_t end = at + word.size();
+        if ((at == 0 || !in_name(text[at - 1])) && (end == text.size() || !in_name(text[end])))
+            return true;
+    }
+    return false;
+}
+
+/// Code without comments, preprocessor's lines and docstrings.
+std::string without_comments(std::string code) {
+    for (const auto& [begin, end] : {std::pair{"/*", "*/"}, {"\"\"\"", "\"\"\""}, {"#", "\n"}})
+        for (auto at = code.find(begin); at != code.npos; at = code.find(begin, at)) {
+            const auto last = code.find(end, at + std::string_view(begin).size());
+            code.replace(at, std::min(last, code.size()) - at + std::string_view(end).size(), " ");
+        }
+    return code;
+}
+
+/// Refuses names that mean something else in the language or in this code.
+void check_name(const std::string& name, const std::string& code, const std::string& reserved,
+                const std::string& language) {
+    const bool taken = has_word(reserved, name);
+    if (taken || has_word(without_comments(code), name))
+        fail_with_hint(ErrorKind::usage, fmt::format("choose another, such as my_{}", name),
+                       "--name: '{}' is {}", name,
+                       taken ? "a word of " + (language == "C" ? "C or C++" : language)
+                             : "a name that the code uses itself");
 }
 
 /// A command for a comment, which it must not end.
@@ -266,6 +301,7 @@ Words words_of(const SetsToMake& job, const Plan& plan, Language language, const
     constexpr const char* names[] = {"C", "GLSL", "HLSL", "Python"};
     Words words = {{"language", names[static_cast<std::size_t>(language)]},
                    {"version", STIPPLE_VERSION},
+                   {"cache", "@lru_cache(4096)"},  // in a template, @ would begin a name
                    {"command", as_comment(job.command)},
                    {"title", wrapped_text(generator.summary + ".")},
                    {"source", wrapped_text(generator.source)},
@@ -278,6 +314,11 @@ Words words_of(const SetsToMake& job, const Plan& plan, Language language, const
         Constants bases{"bases", {}, true};
         for (const std::uint32_t base : generator.bases(plan, job.options))
             bases.numbers.push_back(base);
+        std::uint64_t most = 0;  // images of digits, of all positions
+        for (const std::uint64_t base : bases.numbers)
+            for (std::uint64_t power = 1, images = 0; power < std::uint64_t{1} << 62; power *= base)
+                most = std::max(most, images += base);
+        words["all_images"] = std::to_string(most);
         const std::uint64_t largest = std::ranges::max(bases.numbers);
         words["largest_base"] = std::to_string(largest);
         end = std::min(end, (std::uint64_t{1} << 62) / largest);  // reversed digits fit 62 bits
@@ -311,20 +352,25 @@ std::string emitted(SetsToMake job, Language language, std::string name, const R
         fail(ErrorKind::usage, "--count: {} is beyond the 32 bits of an index in GLSL and HLSL",
              plan.count);
     const char* const libraries[] = {library_c(), library_glsl(), library_glsl(), library_python()};
-    Template code(libraries[static_cast<std::size_t>(language)], name);
+    const std::string mark = "\x01";  // instead of the name, to see which names the code has
+    Template code(libraries[static_cast<std::size_t>(language)], mark);
     if (language == Language::python) code.gap = "\n\n";
     Words words = words_of(job, plan, language, quiet);
     add_unit(code, generator, generators::all(), job.options, words);
     const GeneratedSets sets(job, quiet);
     if (!job.warps.empty()) {
         words["warped"] = "";
-        add_warps(code, job, sets, language, name, quiet);
+        add_warps(code, job, sets, language, mark, quiet);
     }
-    if (code.text().find(name + "_stratum(") != std::string::npos) words["rare"] = "";
+    for (const char* trait : {"rare", "fusible", "integers", "cached", "keyed"})
+        if (code.used(trait)) words[trait] = "";
     words["points"] = examples(sets, language, quiet);
     words["parts"] = code.text().substr(0, code.text().size() - 1);
-    const std::string file = code.filled("file", words);
-    return language == Language::hlsl ? to_hlsl(file) : file;
+    std::string file = code.filled("file", words);
+    if (language == Language::hlsl) file = to_hlsl(file);
+    check_name(name, file, code.filled("reserved", words), words["language"]);
+    replace_all(file, mark, name);
+    return file;
 }
 
 }  // namespace stipple::emit

@@ -1,9 +1,29 @@
+%part reserved
+alignas alignof and and_eq asm auto bitand bitor bool break case catch char char16_t char32_t char8_t class compl concept
+const const_cast consteval constexpr constinit continue co_await co_return co_yield decltype default delete do double
+dynamic_cast else enum explicit export extern false float for friend goto if inline int int16_t int32_t int64_t int8_t
+intmax_t intptr_t long main mutable namespace new noexcept not not_eq nullptr operator or or_eq private protected public
+register reinterpret_cast requires restrict return short signed size_t sizeof static static_assert static_cast std struct
+switch template this thread_local throw true try typedef typeid typename typeof uint16_t uint32_t uint64_t uint8_t
+uintmax_t uintptr_t union unsigned using virtual void volatile wchar_t while xor xor_eq
+acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh double_t drem erf erfc exp exp10 exp2 expm1 fabs fdim
+finite float_t floor fma fmax fmin fmod fpclassify frexp gamma hypot ilogb isfinite isgreater isgreaterequal isinf isless
+islessequal islessgreater isnan isnormal isunordered j0 j1 jn ldexp lgamma llrint llround log log10 log1p log2 logb lrint
+lround modf nan nearbyint nextafter nexttoward pow remainder remquo rint round scalb scalbln scalbn signbit signgam
+significand sin sincos sinh sqrt tan tanh tgamma trunc y0 y1 yn HUGE_VAL INFINITY NAN NULL
+bcmp bcopy bzero ffs index memccpy memchr memcmp memcpy memmem memmove memset rindex stpcpy strcasecmp strcat strchr
+strcmp strcoll strcpy strcspn strdup strerror strlen strncasecmp strncat strncmp strncpy strndup strnlen strpbrk strrchr
+strsep strsignal strspn strstr strtok strxfrm
 %part file
 /* SPDX-License-Identifier: MIT. Copyright (c) 2026 The stipple authors.
  *
  * {{title}}
  *
  * @@(index, dimension, seed) is coordinate `dimension`, from 0 to {{last}}, of point `index`.
+%if keyed
+ * For many points of one seed, @at(index, &key) is faster, with
+ *     @key key = @key_of(dimension, seed);
+%end
 %if warped
  * @point(index, seed, point) sets all coordinates of a point, with their images under warps.
 %end
@@ -13,8 +33,16 @@
  *     {{command}}
  *
  * The numbers are those of 'stipple generate', to the last bit, for all seeds and for indices below
- * {{end}}, in C99 and C++ on machines with IEEE 754 arithmetic. Compile without
- * -ffast-math and with -ffp-contract=off: fused multiplications and additions round differently.
+ * {{end}}, in C99 and C++ on machines with IEEE 754 arithmetic.
+%if fusible
+ * Compile without -ffast-math and with -ffp-contract=off: fused multiplications and additions round
+ * differently.
+%else
+%if integers
+%else
+ * Compile without -ffast-math.
+%end
+%end
  *
  * Points as stipple prints them:
  *
@@ -38,10 +66,10 @@ static inline void @point(uint64_t index, uint64_t seed, double point[{{out}}]) 
     {{statements}}
 }
 %part philox
-/* 64 random bits, number i of a stream: Philox 4x32 with ten rounds. Source: J. K. Salmon,
- * M. A. Moraes, R. O. Dror, D. E. Shaw, SC11 (2011), doi:10.1145/2063384.2063405. */
-static inline uint64_t @random(uint64_t seed, uint64_t stream, uint64_t i) {
-    uint32_t a = (uint32_t)(i / 2), b = (uint32_t)(i / 2 >> 32);
+/* Numbers 2 i and 2 i + 1 of a stream, each 64 random bits: Philox 4x32 with ten rounds. Source:
+ * J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, SC11 (2011), doi:10.1145/2063384.2063405. */
+static inline void @two_random(uint64_t seed, uint64_t stream, uint64_t i, uint64_t two[2]) {
+    uint32_t a = (uint32_t)i, b = (uint32_t)(i >> 32);
     uint32_t c = (uint32_t)stream, d = (uint32_t)(stream >> 32);
     uint32_t low = (uint32_t)seed, high = (uint32_t)(seed >> 32);
     int round;
@@ -55,7 +83,15 @@ static inline uint64_t @random(uint64_t seed, uint64_t stream, uint64_t i) {
         low += 0x9e3779b9;
         high += 0xbb67ae85;
     }
-    return i % 2 == 0 ? ((uint64_t)b << 32) | a : ((uint64_t)d << 32) | c;
+    two[0] = ((uint64_t)b << 32) | a;
+    two[1] = ((uint64_t)d << 32) | c;
+}
+
+/* Number i of a stream. */
+static inline uint64_t @random(uint64_t seed, uint64_t stream, uint64_t i) {
+    uint64_t two[2];
+    @two_random(seed, stream, i / 2, two);
+    return two[i % 2];
 }
 %part unit
 /* The first 53 binary digits of a fraction, whose first digit is the top bit. */
@@ -98,27 +134,39 @@ static inline uint32_t @hash(uint32_t x, uint32_t key) {
 
 /* Flips for five digits: one random bit for each node on their path down a binary tree. */
 static inline uint32_t @flips(uint32_t random, uint32_t digits) {
-    const uint32_t path = 32 | digits;
-    uint32_t flips = 0;
-    int level;
-    for (level = 0; level < 5; ++level)
-        flips |= ((random >> (path >> (5 - level))) & 1) << (4 - level);
-    return flips;
+    return ((random >> 1) & 1) << 4 | ((random >> (2 | digits >> 4)) & 1) << 3 |
+           ((random >> (4 | digits >> 3)) & 1) << 2 | ((random >> (8 | digits >> 2)) & 1) << 1 |
+           ((random >> (16 | digits >> 1)) & 1);
+}
+
+/* Keys of the hashes for groups of five digits, and for the first thirty digits. */
+typedef struct {
+    uint32_t before[12], between[12];
+} @hash_keys;
+
+static inline @hash_keys @hash_keys_of(unsigned dimension, uint64_t seed) {
+    @hash_keys keys;
+    int g;
+    for (g = 0; g < 12; g += 2) {
+        uint64_t two[2];
+        @two_random(seed, 0x100000003, 6 * (uint64_t)dimension + g / 2, two);
+        keys.before[g] = (uint32_t)(two[0] >> 32);
+        keys.between[g] = (uint32_t)two[0];
+        keys.before[g + 1] = (uint32_t)(two[1] >> 32);
+        keys.between[g + 1] = (uint32_t)two[1];
+    }
+    return keys;
 }
 
 /* Nested uniform scrambling: flips each binary digit at random, depending on the digits before it.
  * Thirty digits, and then twenty-five, are scrambled in groups of five. Source: A. B. Owen (1995),
  * doi:10.1007/978-1-4612-2552-2_19. */
-static inline uint64_t @owen(uint64_t fraction, unsigned dimension, uint64_t seed) {
+static inline uint64_t @owen(uint64_t fraction, const @hash_keys *keys) {
+    const uint32_t *before = keys->before, *between = keys->between;
     const uint32_t high = (uint32_t)(fraction >> 34);
     const uint32_t low = (uint32_t)(fraction >> 9) & 0x1ffffff;
-    uint32_t before[12], between[12], above, new_high = high, new_low = low;
+    uint32_t above, new_high = high, new_low = low;
     int g;
-    for (g = 0; g < 12; ++g) {
-        const uint64_t keys = @random(seed, 0x100000003, 12 * (uint64_t)dimension + g);
-        before[g] = (uint32_t)(keys >> 32);
-        between[g] = (uint32_t)keys;
-    }
     for (g = 0; g < 6; ++g) {
         const int shift = 25 - 5 * g;
         const uint32_t prefix = g == 0 ? 0 : high >> (shift + 5);
@@ -134,7 +182,7 @@ static inline uint64_t @owen(uint64_t fraction, unsigned dimension, uint64_t see
     return ((uint64_t)new_high << 34) | ((uint64_t)(new_low >> 2) << 11);
 }
 %part sobol
-%use directions
+%use directions integers
 %need unit
 %if scramble owen
 %need owen
@@ -147,43 +195,103 @@ static const uint64_t @columns[{{columns.size}}] = {
     {{columns}}
 };
 
-%if scramble matrix
-/* A random lower triangular matrix times the digits. Source: J. Matousek (1998),
- * doi:10.1006/jcom.1998.0489. */
-static inline uint64_t @product(uint64_t fraction, unsigned dimension, uint64_t seed) {
-    uint64_t product = 0, j;
-    for (j = 0; j < 64; ++j) {
-        const uint64_t digit = (uint64_t)1 << (63 - j);
-        if (fraction & digit)
-            product ^= digit | ((digit - 1) & @random(seed, 0x100000002, 64 * (uint64_t)dimension + j));
-    }
-    return product;
-}
-
-%end
-/* Coordinate `dimension` of point `index`, in [0, 1). */
-static inline double @@(uint64_t index, unsigned dimension, uint64_t seed) {
-    const uint64_t *column = @columns + 52 * dimension;
+/* Coordinate `dimension` of the plain sequence, as a binary fraction. */
+static inline uint64_t @digits(uint64_t index, const uint64_t *column) {
     uint64_t fraction = 0;
 %if order gray
     index ^= index >> 1; /* Gray code */
 %end
-    for (; index != 0; index >>= 1, ++column)
-        if (index & 1) fraction ^= *column;
+    for (; index != 0; index >>= 1, ++column) fraction ^= *column & (0 - (index & 1));
+    return fraction;
+}
+
 %if scramble none
+/* Coordinate `dimension` of point `index`, in [0, 1). */
+static inline double @@(uint64_t index, unsigned dimension, uint64_t seed) {
     (void)seed;
+    return @unit(@digits(index, @columns + 52 * dimension));
+}
+%else
+%use keyed
+/* What depends on dimension and seed alone. */
+typedef struct {
+%if scramble owen
+    unsigned dimension;
+    @hash_keys hash_keys;
 %end
 %if scramble digital-shift
-    fraction ^= @random(seed, 0x100000001, dimension);
+    unsigned dimension;
+    uint64_t shift;
 %end
 %if scramble matrix
-    fraction = @product(fraction, dimension, seed) ^ @random(seed, 0x100000001, dimension);
+    uint64_t columns[52], shift; /* of the scrambled matrix */
 %end
-%if scramble owen
-    fraction = @owen(fraction, dimension, seed);
-%end
-    return @unit(fraction);
+} @key;
+
+%if scramble matrix
+/* Column j of a random lower triangular matrix. Source: J. Matousek (1998),
+ * doi:10.1006/jcom.1998.0489. */
+static inline uint64_t @random_column(unsigned j, uint64_t random) {
+    const uint64_t digit = (uint64_t)1 << (63 - j);
+    return digit | ((digit - 1) & random);
 }
+
+%end
+static inline @key @key_of(unsigned dimension, uint64_t seed) {
+    @key key;
+%if scramble owen
+    key.dimension = dimension;
+    key.hash_keys = @hash_keys_of(dimension, seed);
+%end
+%if scramble digital-shift
+    key.dimension = dimension;
+    key.shift = @random(seed, 0x100000001, dimension);
+%end
+%if scramble matrix
+    uint64_t two[2];
+    unsigned j, k;
+    for (k = 0; k < 52; ++k) key.columns[k] = 0;
+    for (j = 0; j < 53; ++j) {
+        if (j % 2 == 0) @two_random(seed, 0x100000002, 32 * (uint64_t)dimension + j / 2, two);
+        for (k = 0; k < 52; ++k) {
+            const uint64_t digit = (@columns[52 * dimension + k] >> (63 - j)) & 1;
+            key.columns[k] ^= @random_column(j, two[j % 2]) & (0 - digit);
+        }
+    }
+    key.shift = @random(seed, 0x100000001, dimension);
+%end
+    return key;
+}
+
+/* Coordinate of point `index`, in [0, 1), for the dimension and the seed of the key. */
+static inline double @at(uint64_t index, const @key *key) {
+%if scramble owen
+    return @unit(@owen(@digits(index, @columns + 52 * key->dimension), &key->hash_keys));
+%end
+%if scramble digital-shift
+    return @unit(@digits(index, @columns + 52 * key->dimension) ^ key->shift);
+%end
+%if scramble matrix
+    return @unit(@digits(index, key->columns) ^ key->shift);
+%end
+}
+
+/* Coordinate `dimension` of point `index`, in [0, 1). */
+static inline double @@(uint64_t index, unsigned dimension, uint64_t seed) {
+%if scramble matrix
+    const uint64_t fraction = @digits(index, @columns + 52 * dimension);
+    uint64_t product = @random(seed, 0x100000001, dimension);
+    unsigned j;
+    for (j = 0; j < 53; ++j)
+        if ((fraction >> (63 - j)) & 1)
+            product ^= @random_column(j, @random(seed, 0x100000002, 64 * (uint64_t)dimension + j));
+    return @unit(product);
+%else
+    const @key key = @key_of(dimension, seed);
+    return @at(index, &key);
+%end
+}
+%end
 %part van-der-corput
 %need ratio
 /* Point `index`, in [0, 1): its digits in base {{base}}, mirrored at the point. */
@@ -247,14 +355,19 @@ static const unsigned @begins[{{dimension}}] = {
 };
 %end
 
+%if scramble owen permutation
+static inline @key @key_of(unsigned dimension, uint64_t seed) {
+    return @key_in(@bases[dimension], dimension, seed);
+}
+
 /* Coordinate `dimension` of point `index`, in [0, 1). */
 static inline double @@(uint64_t index, unsigned dimension, uint64_t seed) {
-%if scramble owen
-    return @nested(index, @bases[dimension], dimension, seed);
+    const @key key = @key_of(dimension, seed);
+    return @at(index, &key);
+}
 %else
-%if scramble permutation
-    return @permuted_inverse(index, @bases[dimension], dimension, seed);
-%else
+/* Coordinate `dimension` of point `index`, in [0, 1). */
+static inline double @@(uint64_t index, unsigned dimension, uint64_t seed) {
     const unsigned base = @bases[dimension];
     uint64_t reversed = 0, power = 1;
     (void)seed;
@@ -272,53 +385,77 @@ static inline double @@(uint64_t index, unsigned dimension, uint64_t seed) {
         power *= base;
     }
     return @ratio(reversed, power);
-%end
-%end
 }
+%end
 %part permuted_inverse
+%use keyed
 %need philox
 %need unit
 %need high_product
-/* Image of a digit under the random permutation for its position: Fisher and Yates's shuffle. */
-static inline unsigned @image(unsigned digit, unsigned position, unsigned base, unsigned dimension,
-                              uint64_t seed) {
-    unsigned images[{{largest_base}}] = {0}, left;
-    for (left = 0; left < base; ++left) images[left] = left;
-    for (left = base; left > 1; --left) {
-        const uint64_t random = @random(seed, dimension, position * (uint64_t)base + left - 1);
-        const unsigned other = (unsigned)@high_product(random, left);
-        const unsigned image = images[left - 1];
-        images[left - 1] = images[other];
-        images[other] = image;
+/* What depends on dimension and seed alone: for each position of a digit its random permutation,
+ * and the value of the zeros from there on, which are permuted, too. */
+typedef struct {
+    unsigned base, end;
+    unsigned char images[{{all_images}}];
+    double zeros[64];
+} @key;
+
+static inline @key @key_in(unsigned base, unsigned dimension, uint64_t seed) {
+    @key key;
+    unsigned position, left;
+    uint64_t power = 1, two[2] = {0, 0}, known = ~(uint64_t)0; /* two: numbers 2 known, 2 known + 1 */
+    key.base = base;
+    key.end = 0;
+    for (position = 0; power < (uint64_t)1 << 62; ++position, power *= base) {
+        unsigned char *images = key.images + position * base;
+        for (left = 0; left < base; ++left) images[left] = (unsigned char)left;
+        for (left = base; left > 1; --left) { /* Fisher and Yates's shuffle */
+            const uint64_t i = position * (uint64_t)base + left - 1;
+            unsigned other;
+            unsigned char image;
+            if (i / 2 != known) @two_random(seed, dimension, known = i / 2, two);
+            other = (unsigned)@high_product(two[i % 2], left);
+            image = images[left - 1];
+            images[left - 1] = images[other];
+            images[other] = image;
+        }
+        if (power < 9007199254740992u) key.end = position + 1;
     }
-    return images[digit];
+    key.zeros[63] = @unit(@random(seed, dimension, key.end * (uint64_t)base));
+    for (position = 63; position-- > 0;)
+        if (position >= key.end)
+            key.zeros[position] = key.zeros[63];
+        else
+            key.zeros[position] = (key.images[position * base] + key.zeros[position + 1]) / base;
+    return key;
 }
 
-/* Radical inverse with a random permutation of the digits for each position. Source: A. B. Owen,
+/* Coordinate of point `index`, in [0, 1), for the dimension and the seed of the key: the radical
+ * inverse with a random permutation of the digits for each position. Source: A. B. Owen,
  * arXiv:1706.02808 (2017). */
-static inline double @permuted_inverse(uint64_t index, unsigned base, unsigned dimension,
-                                       uint64_t seed) {
-    uint64_t low = 0, block = 1, whole = 0, power = 1, reach;
-    unsigned position = 0, end;
-    double margin, zeros, rest;
+static inline double @at(uint64_t index, const @key *key) {
+    const unsigned base = key->base;
+    const unsigned char *images = key->images;
+    uint64_t low = 0, block = 1, whole = 0, power = 1;
+    unsigned position = 0;
+    double margin, rest;
     /* The low digits, as an integer. */
     do {
-        low = low * base + @image((unsigned)(index % base), position++, base, dimension, seed);
+        low = low * base + images[index % base];
         block *= base;
         index /= base;
+        ++position;
+        images += base;
     } while (block * base <= 1024);
-    for (end = position, reach = block; reach < 9007199254740992u; reach *= base) ++end;
-    /* The other digits; each of the zeros that follow is permuted, too. */
-    for (; index != 0; index /= base, power *= base)
-        whole = whole * base + @image((unsigned)(index % base), position++, base, dimension, seed);
-    zeros = @unit(@random(seed, dimension, end * (uint64_t)base));
-    while (end > position) zeros = (@image(0, --end, base, dimension, seed) + zeros) / base;
-    rest = ((double)whole + zeros) / (double)power;
+    for (; index != 0; index /= base, power *= base, ++position, images += base)
+        whole = whole * base + images[index % base];
+    rest = ((double)whole + key->zeros[position]) / (double)power;
     margin = (double)block * (1.0 / 2251799813685248.0);
     rest = rest < margin ? margin : rest > 1 - margin ? 1 - margin : rest;
     return ((double)low + rest) / (double)block;
 }
 %part nested
+%use keyed fusible
 %need owen
 %need unit
 %need high_product
@@ -328,18 +465,37 @@ static inline uint32_t @digit_hash(uint32_t digit, uint64_t prefix) {
     return @hash((uint32_t)prefix + digit * 0x9e3779b9, (uint32_t)(prefix >> 32));
 }
 
-/* Radical inverse with nested uniform scrambling: a random permutation of each digit for each
- * choice of the digits before it. The digits after the last one form a uniform number. */
-static inline double @nested(uint64_t index, unsigned base, unsigned dimension, uint64_t seed) {
-    uint64_t key[3], rest, random, prefix = 0, place = 1, image = 0, leading = 1;
+/* What depends on dimension and seed alone: keys of the hashes in base 2, or in other bases. */
+typedef struct {
+    unsigned base;
+    uint64_t keys[3];
+    @hash_keys hash_keys;
+} @key;
+
+static inline @key @key_in(unsigned base, unsigned dimension, uint64_t seed) {
+    @key key;
+    unsigned j;
+    memset(&key, 0, sizeof key);
+    key.base = base;
+    if (base == 2) key.hash_keys = @hash_keys_of(dimension, seed);
+    for (j = 0; j < 3 && base != 2; ++j)
+        key.keys[j] = @random(seed, 0x100000006, 3 * (uint64_t)dimension + j);
+    return key;
+}
+
+/* Coordinate of point `index`, in [0, 1), for the dimension and the seed of the key: the radical
+ * inverse with nested uniform scrambling, a random permutation of each digit for each choice of the
+ * digits before it. The digits after the last one form a uniform number. */
+static inline double @at(uint64_t index, const @key *keyed) {
+    const uint64_t *key = keyed->keys, base = keyed->base;
+    uint64_t rest, random, prefix = 0, place = 1, image = 0, leading = 1;
     unsigned depth = 0, j;
     double length, margin;
     if (base == 2) {
         uint64_t reversed = 0;
         for (j = 0; j < 64; ++j) reversed |= ((index >> j) & 1) << (63 - j);
-        return @unit(@owen(reversed, dimension, seed));
+        return @unit(@owen(reversed, &keyed->hash_keys));
     }
-    for (j = 0; j < 3; ++j) key[j] = @random(seed, 0x100000006, 3 * (uint64_t)dimension + j);
     for (rest = index;; rest /= base) {
         unsigned digit = (unsigned)(rest % base), turned, other;
         random = (prefix ^ key[0]) * 0xbf58476d1ce4e5b9u; /* splitmix64, with two keys */
@@ -371,6 +527,7 @@ static inline double @nested(uint64_t index, unsigned base, unsigned dimension, 
     return ((double)image + (margin + (1 - 2 * margin) * @unit(random))) / length;
 }
 %part kronecker
+%use integers
 %need unit
 %need high_product
 /* Steps along each coordinate, as high and low halves of fractions of 128 bits; and point 0. */
@@ -412,6 +569,7 @@ static inline double @@(uint64_t index, unsigned dimension, uint64_t seed) {
 }
 %use rule multiplier vector vector-file decay weights effort
 %part stratum
+%use fusible
 /* The point low + width u of [0, parts), divided by parts; the middle where rounding would reach an
  * edge of [low, low + width). */
 static inline double @stratum(uint64_t low, uint64_t width, uint64_t parts, double u) {
@@ -573,6 +731,7 @@ static inline double @@(uint64_t index, unsigned dimension, uint64_t seed) {
 }
 %use shape
 %part cos_sin
+%use fusible
 /* Cosine and sine of an angle in [-1/8, 1/8] turns, within a unit in the last place. */
 static inline void @cos_sin_eighth(double t, double *cosine, double *sine) {
     const double head = 6.283185243606567; /* 2 pi in 26 bits, and the rest of it */
@@ -667,6 +826,7 @@ static inline void {{function}}(double u, double v, double point[2]) {
     point[1] = @placed({{center.1}}, {{radius}}, y);
 }
 %part triangle
+%use fusible
 /* {{summary}}: method {{method}}, vertices {{vertices.text}}. */
 static inline void {{function}}(double u, double v, double point[{{dims}}]) {
     static const double vertex[{{vertices.size}}] = {

@@ -1,9 +1,26 @@
+%part reserved
+main struct void bool true false int uint float double half fixed long short char string unsigned vec2 vec3 vec4 bvec2 bvec3
+bvec4 ivec2 ivec3 ivec4 uvec2 uvec3 uvec4 dvec2 dvec3 dvec4 mat2 mat3 mat4 mat2x2 mat2x3 mat2x4 mat3x2 mat3x3 mat3x4 mat4x2
+mat4x3 mat4x4 float2 float3 float4 int2 int3 int4 uint2 uint3 uint4 bool2 bool3 bool4 matrix vector
+break case continue default discard do else for if return subroutine switch while
+active asm atomic_uint attribute auto buffer cast catch cbuffer centroid class coherent column_major common compile const
+const_cast delete dword dynamic_cast enum explicit export extern external filter flat friend goto groupshared highp in
+inline inout input interface invariant layout line lineadj linear lowp mediump mutable namespace new noinline nointerpolation
+noise noperspective operator out output packoffset partition pass patch pixelfragment point precise precision private
+protected public readonly register reinterpret_cast resource restrict row_major sample sampler shared signed sizeof smooth
+snorm stateblock static static_cast superp tbuffer technique template texture this throw triangle triangleadj try typedef
+typename uniform union unorm using varying vertexfragment virtual volatile writeonly
+asfloat asint asuint firstbithigh
 %part file
 /* SPDX-License-Identifier: MIT. Copyright (c) 2026 The stipple authors.
  *
  * {{title}}
  *
  * @@(index, dimension, seed) is coordinate `dimension`, from 0 to {{last}}, of point `index`.
+%if keyed
+ * For many points of one seed, @at(index, key) is faster, with
+ *     @key key = @key_of(dimension, seed);
+%end
 %if warped
  * @point(index, seed, p) sets p to all coordinates, with their images under warps.
 %end
@@ -67,11 +84,11 @@ uint @below(uvec2 a, uint b) {
 }
 %part philox
 %need high_product
-/* 64 random bits, low and high word, number i of stream (low, high): Philox 4x32 with ten rounds.
- * Source: J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, SC11 (2011),
+/* Numbers 2 i and 2 i + 1 of stream (low, high), each 64 random bits, low and high word: Philox 4x32
+ * with ten rounds. Source: J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, SC11 (2011),
  * doi:10.1145/2063384.2063405. */
-uvec2 @random(uint seed, uvec2 stream, uint i) {
-    uint a = i >> 1, b = 0u, c = stream.x, d = stream.y;
+void @two_random(uint seed, uvec2 stream, uint i, out uvec2 first, out uvec2 second) {
+    uint a = i, b = 0u, c = stream.x, d = stream.y;
     uint low = seed, high = 0u;
     for (int round = 0; round < 10; ++round) {
         uint p = @high_product(0xd2511f53u, a), q = @high_product(0xcd9e8d57u, c);
@@ -83,7 +100,15 @@ uvec2 @random(uint seed, uvec2 stream, uint i) {
         low += 0x9e3779b9u;
         high += 0xbb67ae85u;
     }
-    return (i & 1u) == 0u ? uvec2(a, b) : uvec2(c, d);
+    first = uvec2(a, b);
+    second = uvec2(c, d);
+}
+
+/* Number i of a stream. */
+uvec2 @random(uint seed, uvec2 stream, uint i) {
+    uvec2 first, second;
+    @two_random(seed, stream, i >> 1, first, second);
+    return (i & 1u) == 0u ? first : second;
 }
 %part unit
 /* The first 53 binary digits of a fraction, whose first digit is the top bit of its high word, cut
@@ -138,32 +163,48 @@ uint @hash(uint x, uint key) {
 
 /* Flips for five digits: one random bit for each node on their path down a binary tree. */
 uint @flips(uint bits, uint digits) {
-    uint path = 32u | digits, flip = 0u;
-    for (int level = 0; level < 5; ++level)
-        flip |= ((bits >> (path >> (5 - level))) & 1u) << (4 - level);
-    return flip;
+    return ((bits >> 1) & 1u) << 4 | ((bits >> (2u | digits >> 4)) & 1u) << 3 |
+           ((bits >> (4u | digits >> 3)) & 1u) << 2 | ((bits >> (8u | digits >> 2)) & 1u) << 1 |
+           ((bits >> (16u | digits >> 1)) & 1u);
+}
+
+/* What depends on dimension and seed alone: keys of the hashes for groups of five digits and for the
+ * first thirty digits, each with its parts between and before. */
+struct @key {
+    uint dimension;
+    uvec2 keys[12];
+};
+
+@key @key_of(uint dimension, uint seed) {
+    @key key;
+    key.dimension = dimension;
+    for (int k = 0; k < 12; k += 2) {
+        uvec2 first, second;
+        @two_random(seed, uvec2(3u, 1u), 6u * dimension + uint(k / 2), first, second);
+        key.keys[k] = first;
+        key.keys[k + 1] = second;
+    }
+    return key;
 }
 
 /* Nested uniform scrambling: flips each binary digit at random, depending on the digits before it.
  * Thirty digits, and then twenty-five, are scrambled in groups of five. Source: A. B. Owen (1995),
  * doi:10.1007/978-1-4612-2552-2_19. */
-uvec2 @owen(uvec2 fraction, uint dimension, uint seed) {
+uvec2 @owen(uvec2 fraction, @key key) {
     uint high = fraction.y >> 2, low = ((fraction.y & 3u) << 23) | (fraction.x >> 9);
     uint new_high = high, new_low = low;
-    uvec2 keys[12]; /* between and before */
-    for (int k = 0; k < 12; ++k) keys[k] = @random(seed, uvec2(3u, 1u), 12u * dimension + uint(k));
     for (int g = 0; g < 6; ++g) {
         int shift = 25 - 5 * g;
         uint prefix = g == 0 ? 0u : high >> (shift + 5);
-        uint bits = @hash(prefix ^ keys[g].y, keys[g].x);
+        uint bits = @hash(prefix ^ key.keys[g].y, key.keys[g].x);
         new_high ^= @flips(bits, (high >> shift) & 31u) << shift;
     }
-    uint above = @hash(high ^ keys[11].y, keys[11].x);
+    uint above = @hash(high ^ key.keys[11].y, key.keys[11].x);
     for (int f = 0; f < 5; ++f) {
         int shift = 20 - 5 * f;
         uint prefix = f == 0 ? 0u : low >> (shift + 5);
-        uint node = (prefix ^ keys[6 + f].y) + above * (2u * keys[f].y + 1u);
-        new_low ^= @flips(@hash(node, keys[6 + f].x), (low >> shift) & 31u) << shift;
+        uint node = (prefix ^ key.keys[6 + f].y) + above * (2u * key.keys[f].y + 1u);
+        new_low ^= @flips(@hash(node, key.keys[6 + f].x), (low >> shift) & 31u) << shift;
     }
     return uvec2(new_low << 9, (new_high << 2) | (new_low >> 23));
 }
@@ -183,44 +224,86 @@ const uint @columns[{{upper.size}}] = uint[{{upper.size}}](
     {{upper}}
 );
 
-%if scramble matrix
-/* A random lower triangular matrix times the digits. Source: J. Matousek (1998),
- * doi:10.1006/jcom.1998.0489. */
-uvec2 @product(uint high, uint dimension, uint seed) {
-    uvec2 product = uvec2(0u, 0u);
-    for (uint j = 0u; j < 32u; ++j) {
-        uint digit = 0x80000000u >> j;
-        if ((high & digit) != 0u) {
-            uvec2 below = @random(seed, uvec2(2u, 1u), 64u * dimension + j);
-            product = uvec2(product.x ^ below.x, product.y ^ digit ^ (below.y & (digit - 1u)));
-        }
-    }
-    return product;
-}
-
-%end
-/* Coordinate `dimension` of point `index`, in [0, 1). */
-float @@(uint index, uint dimension, uint seed) {
-    uvec2 fraction = uvec2(0u, 0u);
+/* Coordinate `dimension` of the plain sequence, as a binary fraction. */
+uint @digits(uint index, uint dimension) {
+    uint fraction = 0u;
 %if order gray
     index ^= index >> 1; /* Gray code */
 %end
     for (uint j = 32u * dimension; index != 0u; index >>= 1, ++j)
-        if ((index & 1u) != 0u) fraction.y ^= @columns[j];
+        fraction ^= @columns[j] & (0u - (index & 1u));
+    return fraction;
+}
+
+%if scramble none
+/* Coordinate `dimension` of point `index`, in [0, 1). */
+float @@(uint index, uint dimension, uint seed) {
+    return @unit(uvec2(0u, @digits(index, dimension)));
+}
+%else
+%use keyed
 %if scramble digital-shift
-    uvec2 shift = @random(seed, uvec2(1u, 1u), dimension);
-    fraction = uvec2(shift.x, fraction.y ^ shift.y);
+/* What depends on dimension and seed alone. */
+struct @key {
+    uint dimension;
+    uvec2 shift;
+};
+
+@key @key_of(uint dimension, uint seed) {
+    @key key;
+    key.dimension = dimension;
+    key.shift = @random(seed, uvec2(1u, 1u), dimension);
+    return key;
+}
+
 %end
 %if scramble matrix
-    uvec2 shift = @random(seed, uvec2(1u, 1u), dimension);
-    fraction = @product(fraction.y, dimension, seed);
-    fraction = uvec2(fraction.x ^ shift.x, fraction.y ^ shift.y);
-%end
-%if scramble owen
-    fraction = @owen(fraction, dimension, seed);
-%end
-    return @unit(fraction);
+/* What depends on dimension and seed alone: columns of a random lower triangular matrix, and a
+ * shift. Source: J. Matousek (1998), doi:10.1006/jcom.1998.0489. */
+struct @key {
+    uint dimension;
+    uvec2 shift;
+    uvec2 columns[32];
+};
+
+@key @key_of(uint dimension, uint seed) {
+    @key key;
+    key.dimension = dimension;
+    key.shift = @random(seed, uvec2(1u, 1u), dimension);
+    for (uint j = 0u; j < 32u; j += 2u) {
+        uint digit = 0x80000000u >> j;
+        uvec2 first, second;
+        @two_random(seed, uvec2(2u, 1u), 32u * dimension + j / 2u, first, second);
+        key.columns[j] = uvec2(first.x, digit | (first.y & (digit - 1u)));
+        digit >>= 1;
+        key.columns[j + 1u] = uvec2(second.x, digit | (second.y & (digit - 1u)));
+    }
+    return key;
 }
+
+%end
+/* Coordinate of point `index`, in [0, 1), for the dimension and the seed of the key. */
+float @at(uint index, @key key) {
+    uint digits = @digits(index, key.dimension);
+%if scramble owen
+    return @unit(@owen(uvec2(0u, digits), key));
+%end
+%if scramble digital-shift
+    return @unit(uvec2(key.shift.x, digits ^ key.shift.y));
+%end
+%if scramble matrix
+    uvec2 product = key.shift;
+    for (uint j = 0u; j < 32u; ++j) {
+        uint chosen = 0u - ((digits >> (31u - j)) & 1u);
+        product = uvec2(product.x ^ (key.columns[j].x & chosen), product.y ^ (key.columns[j].y & chosen));
+    }
+    return @unit(product);
+%end
+}
+
+/* Coordinate `dimension` of point `index`, in [0, 1). */
+float @@(uint index, uint dimension, uint seed) { return @at(index, @key_of(dimension, seed)); }
+%end
 %part inverse
 %need ratio
 /* Radical inverse: the digits of `index` in a base, mirrored at the point. */
@@ -335,6 +418,7 @@ float @@(uint index, uint dimension, uint seed) {
 }
 %use rule multiplier vector vector-file decay weights effort
 %part stratum
+%use rare
 %need ratio
 /* Rounds the number whole + fraction / 2^64 to 53 bits, to the nearest even. */
 void @round53(inout uint whole, inout uvec2 fraction) {

@@ -1,3 +1,6 @@
+%part reserved
+False None True and as assert async await break class continue def del elif else except finally for from global if import in is
+lambda nonlocal not or pass raise return try while with yield match case type
 %part file
 # SPDX-License-Identifier: MIT. Copyright (c) 2026 The stipple authors.
 """
@@ -21,10 +24,17 @@ Points as stipple prints them:
 
 Source: {{source}}
 """
+%if cached
+from functools import lru_cache
+%end
 %if warped
 import math
 import struct
 
+%else
+%if cached
+
+%end
 %end
 WORD = 0xffffffffffffffff  # 64 bits
 
@@ -59,6 +69,7 @@ def @ratio(a, b):
     """a / b to the nearest double, at most 1 - 2^-53."""
     return min(a / b, 1 - 2.0**-53)
 %part owen
+%use cached
 %need philox
 def @hash(x, key):
     """A bijective hash of 32 bits with a key in the middle (constants: C. Wellons, lowbias32)."""
@@ -75,6 +86,13 @@ def @flips(random, digits):
     return sum((random >> (path >> (5 - level)) & 1) << (4 - level) for level in range(5))
 
 
+{{cache}}
+def @keys(dimension, seed):
+    """Keys of the hashes for groups of five digits, and for the first thirty digits."""
+    keys = [@random(seed, 0x100000003, 12 * dimension + g) for g in range(12)]
+    return [key >> 32 for key in keys], [key & 0xffffffff for key in keys]
+
+
 def @owen(fraction, dimension, seed):
     """Nested uniform scrambling: flips each binary digit at random, depending on the digits before it.
 
@@ -82,8 +100,7 @@ def @owen(fraction, dimension, seed):
     doi:10.1007/978-1-4612-2552-2_19.
     """
     high, low = fraction >> 34, fraction >> 9 & 0x1ffffff
-    keys = [@random(seed, 0x100000003, 12 * dimension + g) for g in range(12)]
-    before, between = [key >> 32 for key in keys], [key & 0xffffffff for key in keys]
+    before, between = @keys(dimension, seed)
     new_high, new_low = high, low
     for g in range(6):
         shift = 25 - 5 * g
@@ -110,16 +127,20 @@ def @owen(fraction, dimension, seed):
 
 
 %if scramble matrix
-def @product(fraction, dimension, seed):
-    """A random lower triangular matrix times the digits.
+%use cached
+{{cache}}
+def @matrix(dimension, seed):
+    """Columns of a random lower triangular matrix. Source: J. Matousek (1998), doi:10.1006/jcom.1998.0489."""
+    digits = [1 << (63 - j) for j in range(53)]
+    return [digit | @random(seed, 0x100000002, 64 * dimension + j) & (digit - 1) for j, digit in enumerate(digits)]
 
-    Source: J. Matousek (1998), doi:10.1006/jcom.1998.0489.
-    """
+
+def @product(fraction, dimension, seed):
+    """A random matrix times the digits."""
     product = 0
-    for j in range(64):
-        digit = 1 << (63 - j)
-        if fraction & digit:
-            product ^= digit | @random(seed, 0x100000002, 64 * dimension + j) & (digit - 1)
+    for j, column in enumerate(@matrix(dimension, seed)):
+        if fraction >> (63 - j) & 1:
+            product ^= column
     return product
 
 
@@ -228,15 +249,17 @@ def @@(index, dimension, seed):
 %end
 %end
 %part permuted_inverse
+%use cached
 %need philox
 %need unit
-def @image(digit, position, base, dimension, seed):
-    """Image of a digit under the random permutation for its position: Fisher and Yates's shuffle."""
+{{cache}}
+def @images(position, base, dimension, seed):
+    """The random permutation of the digits at a position: Fisher and Yates's shuffle."""
     images = list(range(base))
     for left in range(base, 1, -1):
         other = @random(seed, dimension, position * base + left - 1) * left >> 64
         images[left - 1], images[other] = images[other], images[left - 1]
-    return images[digit]
+    return images
 
 
 def @permuted_inverse(index, base, dimension, seed):
@@ -246,18 +269,18 @@ def @permuted_inverse(index, base, dimension, seed):
     """
     low, block, position = 0, 1, 0
     while position == 0 or block * base <= 1024:  # the low digits, as an integer
-        low = low * base + @image(index % base, position, base, dimension, seed)
+        low = low * base + @images(position, base, dimension, seed)[index % base]
         block, position, index = block * base, position + 1, index // base
     end, reach = position, block
     while reach < 2**53:
         end, reach = end + 1, reach * base
     whole, power = 0, 1
     while index:  # the other digits; each of the zeros that follow is permuted, too
-        whole = whole * base + @image(index % base, position, base, dimension, seed)
+        whole = whole * base + @images(position, base, dimension, seed)[index % base]
         power, position, index = power * base, position + 1, index // base
     zeros = @unit(@random(seed, dimension, end * base))
     for at in range(end - 1, position - 1, -1):
-        zeros = (@image(0, at, base, dimension, seed) + zeros) / base
+        zeros = (@images(at, base, dimension, seed)[0] + zeros) / base
     margin = block * 2.0**-51
     rest = min(max((whole + zeros) / power, margin), 1 - margin)
     return (low + rest) / block

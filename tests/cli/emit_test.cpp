@@ -43,6 +43,22 @@ TEST(Emit, PartsComeOnceAndByNeed) {
     EXPECT_EQ(count("def sobol_disk"), 2U);
 }
 
+// Options of the compiler stand where they matter.
+TEST(Emit, CommentsNameOptionsThatMatter) {
+    const Sandbox box;
+    const auto code = [&](const std::string& arguments) {
+        return good(box.shell("stipple emit " + arguments));
+    };
+    for (const char* exact : {"sobol --scramble owen", "kronecker -d 3"})
+        EXPECT_THAT(code(exact), Not(HasSubstr("ompile with"))) << exact;
+    for (const char* divided : {"halton", "jittered -n 100 --cell center", "rank1-lattice -n 64"}) {
+        EXPECT_THAT(code(divided), HasSubstr("Compile without -ffast-math.\n")) << divided;
+        EXPECT_THAT(code(divided), Not(HasSubstr("-ffp-contract"))) << divided;
+    }
+    for (const char* fused : {"halton --scramble owen", "jittered -n 100", "sobol -w disk"})
+        EXPECT_THAT(code(fused), HasSubstr("with -ffp-contract=off")) << fused;
+}
+
 // A path cannot end the comment that it is in.
 TEST(Emit, CommentsStayComments) {
     const Sandbox box;
@@ -64,6 +80,9 @@ TEST(Emit, RefusesWithASentence) {
     refuses("sobol -d 17", "--dimension: 17 is outside [1, 16]");
     refuses("sobol --language rust", "rust");
     refuses("sobol --name 2d", "--name: '2d' is not a name");
+    refuses("sobol --name double", "--name: 'double' is a word of C or C++");
+    refuses("sobol --name sample --language hlsl", "--name: 'sample' is a word of HLSL");
+    refuses("halton --name index --language python", "'index' is a name that the code uses itself");
     refuses("halton --scramble owen --language glsl", "--scramble: owen takes double precision");
     refuses("hammersley -n 2^32 --language hlsl", "--count: 4294967296 is beyond the 32 bits");
     refuses("jittered -n 2^50", "--count: 1125899906842624 is more than 4398046511104");

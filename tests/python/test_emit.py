@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Compiles and runs the code that `stipple emit` writes, and compares its numbers with the program's."""
+import os
 import re
 import shutil
 import subprocess
@@ -150,9 +151,11 @@ int main(void) {{
 """
 
 
-def calls(case, seeds, wide, suffix):
-    """Statements that write all numbers of a case."""
+def calls(case, seeds, wide, suffix, address="&"):
+    """Statements that write all numbers of a case. Numbers made with a key must be the same."""
     lines = []
+    name, d = case.name, case.dimension
+    with_key = any(f"scramble={word}" in case.generator for word in ("owen", "digital-shift", "matrix", "permutation"))
     for first, number in case.blocks(wide):
         for seed in case.seeds(seeds):
             lines.append(f"first = {first}{suffix}, seed = {seed}{suffix};")
@@ -160,8 +163,11 @@ def calls(case, seeds, wide, suffix):
                 lines.append(f"for (i = 0; i < {number}; ++i) {{ {case.name}_point(first + i, seed, p);"
                              f" fwrite(p, sizeof *p, {case.width}, stdout); }}")
             else:
-                lines.append(f"for (i = 0; i < {number}; ++i) for (k = 0; k < {case.dimension}; ++k) {{"
-                             f" p[0] = {case.name}(first + i, k, seed); fwrite(p, sizeof *p, 1, stdout); }}")
+                lines.append(f"for (i = 0; i < {number}; ++i) for (k = 0; k < {d}; ++k) {{"
+                             f" p[0] = {name}(first + i, k, seed); fwrite(p, sizeof *p, 1, stdout); }}")
+            if with_key and not case.warps:
+                lines.append(f"for (k = 0; k < {d}; ++k) {{ {name}_key key = {name}_key_of(k, seed); for (i = 0; i < {number}; ++i)"
+                             f" if ({name}_at(first + i, {address}key) != {name}(first + i, k, seed)) return 1; }}")
     return lines
 
 
@@ -175,9 +181,21 @@ STRICT = "cc -std=c99 -pedantic -Wall -Wextra -Werror -O3 -march=native -ffp-con
 AS_CPP = "c++ -x c++ -std=c++11 -Wall -Wextra -Werror -O1 -march=native -ffp-contract=off"
 
 
-@pytest.mark.parametrize("command", [STRICT, AS_CPP])
+def demands(code):
+    """The options that a comment asks for."""
+    return [flag for flag in ("-ffp-contract=off", "-ffast-math") if flag in code]
+
+
+# What the comments of no code forbid changes nothing.
+FUSED = "cc -std=c99 -O3 -march=native -ffp-contract=fast"
+FAST = "cc -std=c99 -O3 -march=native -ffast-math"
+
+
+@pytest.mark.parametrize("command", [STRICT, AS_CPP, FUSED, FAST])
 def test_c_gives_the_programs_bits(run, answers, emitted, tmp_path, command):
-    cases = CASES + WARPED
+    forbidden = {FUSED: ["-ffp-contract=off"], FAST: ["-ffp-contract=off", "-ffast-math"]}.get(command, [])
+    cases = [case for case in CASES + WARPED if not set(demands(emitted(case, "c"))) & set(forbidden)]
+    assert {"sobol", "sobol:scramble=owen", "kronecker"} <= {case.generator for case in cases}
     text = C_MAIN.format(
         includes="".join(emitted(case, "c") for case in cases), integer="uint64_t", real="double",
         calls="\n    ".join(line for case in cases for line in calls(case, SEEDS, True, "u")))
@@ -234,7 +252,7 @@ HLSL_WORDS = """
 def as_cpp(shader):
     """A shader's function in C++: brackets of arrays, and parameters that are results."""
     text = re.sub(r"= \w+\[\d+\]\(\n([^;]*)\n( *)\);", r"= {\n\1\n\2};", shader)
-    text = re.sub(r"\binout (\w+) ", r"\1& ", text)
+    text = re.sub(r"\b(?:inout|out(?= u)) (\w+) ", r"\1& ", text)
     return re.sub(r"\bout float ", "float ", text)
 
 
@@ -246,7 +264,7 @@ def test_shaders_give_the_programs_numbers_cut_to_float32(run, answers, emitted,
     for case in cases:
         text += as_cpp(emitted(case, language))
     text += C_MAIN.format(includes="", integer="uint", real="float",
-                          calls="\n    ".join(line for case in cases for line in calls(case, seeds, False, "u")))
+                          calls="\n    ".join(line for case in cases for line in calls(case, seeds, False, "u", "")))
     numbers = np.frombuffer(compile_and_run(tmp_path, ["c++", "-O1", "-w", "-ffp-contract=off", "-fsingle-precision-constant"], "main.cpp", text), np.float32)
     for case in cases:
         there = cut(expected(run, answers, case, seeds, False))
@@ -278,3 +296,27 @@ def test_shaders_compile(emitted, tmp_path, language):
     flags = ["-V"] if language == "glsl" else ["-D", "-V", "-e", "main", "-S", "comp"]
     found = subprocess.run([validator, *flags, "all.comp", "-o", "all.spv"], cwd=tmp_path, capture_output=True, text=True)
     assert found.returncode == 0, found.stdout
+
+
+KEYWORDS = {"c": "double main index sin class nullptr uint64_t memcpy", "glsl": "sample float main buffer uvec2 findMSB",
+            "hlsl": "sample float main cbuffer uint2 firstbithigh", "python": "lambda None range math index WORD sum lru_cache"}
+
+
+@pytest.mark.parametrize("language", KEYWORDS)
+def test_names_that_mean_something_else_are_refused(language):
+    program = os.environ["STIPPLE_PROGRAM"]
+
+    def emit(name, *words):
+        return subprocess.run([program, "emit", *words, f"--language={language}", f"--name={name}"], capture_output=True, text=True)
+
+    words = ["sobol", "--scramble=owen", "-w", "disk"]
+    code = emit("lens", *words).stdout
+    code = re.sub(r'"""[^"]*"""|#.*', "", code) if language == "python" else re.sub(r"/\*.*?\*/|^#[^\n]*", "", code, flags=re.S | re.M)
+    own = {word for word in re.findall(r"(?<!\w)[A-Za-z_]\w*", code) if word != "lens" and not word.startswith("lens_")}
+    assert {"index", "fraction", "seed"} <= own
+    for name in own | set(KEYWORDS[language].split()):
+        found = emit(name, *words)
+        assert found.returncode == 2 and f"--name: '{name}' is a" in found.stderr, name
+    for name in ("lens", "_lens", "indexes", "Sample2", "sobol_unit", "my_uvec2"):
+        assert emit(name, "sobol").returncode == 0, name
+    assert "my_uvec2(" in emit("my_uvec2", "sobol").stdout
