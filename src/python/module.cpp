@@ -38,10 +38,12 @@ static py::str readable(const std::string& message) {
 
 void show(const std::vector<std::string>& notes) {
     if (notes.empty()) return;
-    const py::object note = py::module_::import("stipple._errors").attr("Note");
-    for (const std::string& sentence : notes)
-        if (PyErr_WarnEx(note.ptr(), std::string(readable(sentence)).c_str(), 2) != 0)
+    const py::module_ errors = py::module_::import("stipple._errors");
+    for (const std::string& sentence : notes) {
+        const py::str text = errors.attr("in_python")(readable(sentence));
+        if (PyErr_WarnEx(errors.attr("Note").ptr(), std::string(text).c_str(), 2) != 0)
             throw py::error_already_set();
+    }
 }
 
 namespace {

@@ -1,18 +1,39 @@
 # SPDX-License-Identifier: MIT
 """The package's exception and warning category."""
 
+import keyword
 import re
+from collections.abc import Callable
 
-_NAMES = {"count": "n", "dimension": "d"}
+# What the library says of the command line, and what a call has instead, from special to general.
+_SAYS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    (r"--unit-cube beside .* --inverse' takes others back",
+     "inverse(x, x.meta['domain']) takes them back to the cube"),
+    (r"""'stipple warp ("?)([^"]+?)\1 --inverse'""", r"inverse(x, '\2')"),
+    (r"warp --inverse|--inverse", "inverse()"),
+    (r"'stipple list (\w+)'", r"list('\1')"),
+    (r"'stipple (\w+)'", r"\1()"),
+    (r"generate --start 1", "start=1"),
+    (r"--rescale or --bounds lo\.\.hi", "(x - low) / (high - low)"),
+    (r"--meta on the first command", "return_meta=True where they are made"),
+    (r"(?<=with )--column|--column(?= selects)", "x[:, columns]"),
+    (r"--column", "pandas.read_csv()"),
+    (r": -o 'NAME_\{set\}\.\.\.'", ""),
+    (r"(?<![\w-])-([nd]) (?=\d)", r"\1="),
+    (r"(?<![\w-])(--count|-n)(?![\w-])", "n"),
+    (r"(?<![\w-])(--dimension|-d)(?![\w-])", "d"),
+    (r"--output(?![\w-])", "path"),
+    (r"--analyze(?![\w-])|^analyze(?=: )", "analyzers"),
+    (r"--([a-z][a-z0-9-]*)",
+     lambda found: found[1].replace("-", "_") + "_" * keyword.iskeyword(found[1])),
+)
 
 
-def _plain(message: str) -> str:
-    """Replaces options of the command line by argument names: "--count: ..." becomes "n: ..."."""
-    return re.sub(
-        r"--([a-z][a-z0-9-]*)",
-        lambda found: _NAMES.get(found[1], found[1].replace("-", "_")),
-        message,
-    )
+def in_python(message: str) -> str:
+    """A message with arguments and calls for options and commands: "n: ..." for "--count: ..."."""
+    for pattern, words in _SAYS:
+        message = re.sub(pattern, words, message)
+    return message
 
 
 class Error(Exception):
@@ -27,7 +48,7 @@ class Error(Exception):
     hint: str
 
     def __init__(self, message: str, kind: str = "usage", hint: str = "") -> None:
-        message, hint = _plain(message), _plain(hint)
+        message, hint = in_python(message), in_python(hint)
         super().__init__(f"{message} ({hint})" if hint else message)
         self.message = message
         self.kind = kind

@@ -40,7 +40,7 @@ from ._arguments import (
     wholes,
 )
 from ._arrays import Given, Points, alike, as_rows, given, matched, sets_of, with_meta
-from ._errors import Error, Note
+from ._errors import Error, Note, in_python
 from ._frames import Frame, is_frame, is_word
 from ._reports import Page, Picture, Report
 
@@ -597,7 +597,7 @@ def study(generators: Units, analyzers: Units, *, n: int | Iterable[int] = (1024
         whole("seeds", seeds, 1, 10**9), [text("keys", key, "the key of a result") for key in kept],
         run_options(threads, max_memory, progress),
     )
-    return Study(StudyValue(*row) for row in rows)
+    return Study(StudyValue(*row)._replace(failure=in_python(row[-1])) for row in rows)
 
 
 def _named(x: Any) -> list[tuple[str, Given]]:

@@ -10,7 +10,7 @@ from typing import Any, overload
 
 from . import _stipple
 from ._arguments import text
-from ._errors import Error
+from ._errors import Error, in_python
 
 _KINDS = ("generators", "scrambles", "warps", "analyzers", "formats")
 
@@ -34,7 +34,7 @@ def list(kind: str | None = None) -> dict[str, Any]:
         return {kind: list(kind) for kind in _KINDS}
     if text("kind", kind, "a kind of units") not in _KINDS:
         raise Error(f"there is no kind of units {kind!r}; there are {', '.join(_KINDS)}")
-    return {name: unit["summary"] for name, unit in records()[kind].items()}
+    return {name: in_python(unit["summary"]) for name, unit in records()[kind].items()}
 
 
 def find(name: str, kinds: Iterable[str] = _KINDS) -> dict[str, Any] | None:
@@ -69,4 +69,4 @@ def describe(name: str) -> str:
     if "results" in unit:
         lines = [f"    {result['key']}: {result['help']}" for result in unit["results"]]
         parts.append("Results\n" + "\n".join(lines))
-    return "\n\n".join(parts)
+    return in_python("\n\n".join(parts))
