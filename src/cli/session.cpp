@@ -15,6 +15,7 @@
 #include "cli/parsing/requests.hpp"
 #include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
+#include "core/machine/memory.hpp"
 #include "core/text.hpp"
 
 #ifdef __GLIBC_PREREQ
@@ -72,23 +73,6 @@ extern "C" void on_interrupt(int signal) {
     if (!pthread_equal(pthread_self(), main_thread)) pthread_kill(main_thread, signal);
 }
 
-/// Bytes of memory that this process may use: the machine's, or the limit of Linux's control group;
-/// 2^60 if the system reports neither.
-double memory_of_machine() {
-    double bytes = 0x1p60;
-#ifdef _SC_PHYS_PAGES
-    const double pages = static_cast<double>(sysconf(_SC_PHYS_PAGES));
-    if (pages > 0) bytes = pages * static_cast<double>(sysconf(_SC_PAGESIZE));
-#endif
-    for (const char* file :
-         {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
-        std::ifstream in(file);
-        double limit = 0;
-        if (in >> limit && limit > 0) bytes = std::min(bytes, limit);
-    }
-    return bytes;
-}
-
 std::string duration(double seconds) {
     if (seconds < 60) return fmt::format("{:.0f} s", seconds);
     if (seconds < 3600) return fmt::format("{:.0f} min", seconds / 60);
@@ -132,8 +116,7 @@ void ProgressBar::clear() {
 Session::Session(const Request& request)
     : quiet_(request.quiet), bar_(request.quiet ? ProgressMode::never : request.progress) {
     run_.threads = request.threads;
-    run_.max_memory = request.max_memory ? *request.max_memory
-                                         : static_cast<std::uint64_t>(0.8 * memory_of_machine());
+    run_.max_memory = request.max_memory.value_or(default_memory_limit());
     limit_whole_files(run_.max_memory / 3);  // leaves twice the file's bytes for processing it
     run_.memory_in_use = [before = allocated_bytes()] {
         const std::uint64_t now = allocated_bytes();

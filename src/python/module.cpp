@@ -109,6 +109,10 @@ SetsToMake to_make(const Asked& asked) {
 py::tuple generate(const Asked& asked, bool with_meta, const How& how) {
     auto sets = released(how, [&](const RunContext& run) {
         const GeneratedSets made(to_make(asked), run);
+        const double numbers =
+            static_cast<double>(made.plan().count) * static_cast<double>(made.dimension());
+        run.need_memory(static_cast<double>(asked.sets) * (sizeof(PointSet) + 8 * numbers),
+                        asked.sets == 1 ? "the point set" : "the array of all sets");
         std::vector<PointSet> all;
         for (std::uint64_t set = 0; set < made.sets(); ++set) all.push_back(made.made(set, run));
         return all;

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/machine/memory.hpp"
 #include "python/worker.hpp"
 #include "stipple/error.hpp"
 #include "stipple/run.hpp"
@@ -27,7 +28,7 @@ namespace py = pybind11;
 /// Run options of a call.
 struct How {
     unsigned threads = 0;
-    double max_memory = 0;  ///< memory limit in bytes; 0: none
+    double max_memory = 0;  ///< memory limit in bytes; 0: that of the machine
     py::object progress;    ///< function called with the fraction done, or None
 };
 
@@ -59,7 +60,8 @@ auto released(const How& how, Work work) {
         const std::lock_guard lock(mutex);
         notes.push_back(sentence);
     };
-    if (how.max_memory > 0) run.max_memory = static_cast<std::uint64_t>(how.max_memory);
+    run.max_memory =
+        how.max_memory > 0 ? static_cast<std::uint64_t>(how.max_memory) : default_memory_limit();
 
     HiredWorker worker;
     worker->begin([&] {

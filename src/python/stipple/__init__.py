@@ -12,7 +12,7 @@ are arrays (n, d) of float64: the same bytes as from the command line with the s
 number of threads. Most functions accept these arguments:
 
   threads     number of threads; 0: all cores. Results do not depend on it.
-  max_memory  memory limit in bytes; 0: none.
+  max_memory  memory limit in bytes; 0: four fifths of the machine's.
   progress    True draws a bar on stderr; or a function that is called with the fraction done.
 
 Calls let other Python threads run, and Ctrl-C interrupts them. Wrong arguments and other errors are

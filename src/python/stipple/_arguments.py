@@ -120,7 +120,7 @@ def run_options(threads: object = 0, max_memory: object = 0,
         refuse("progress", progress, "True, or a function of the fraction done")
     if isinstance(progress, FLAGS):
         progress = _bar if progress else None
-    memory = real("max_memory", max_memory, 0, 2.0**63, "a number of bytes; 0: no limit")
+    memory = real("max_memory", max_memory, 0, 2.0**63, "a number of bytes; 0: the machine's")
     return _stipple.How(whole("threads", threads, 0, 4096), memory, progress)
 
 
