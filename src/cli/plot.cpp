@@ -311,9 +311,7 @@ class Plot {
     void rename_columns(Loaded& set) const {
         Provenance& meta = set.points.provenance;
         const auto before = coordinate_names(set.points.dimension(), meta);
-        const auto logs = page::log_parameters(set.points.domain->spec());
-        for (const std::string& name : before)
-            set.log.push_back(std::ranges::find(logs, name) != logs.end());
+        set.log = page::log_axes(set.points);
         if (axes_.empty() || charted_ != nullptr || chart_ == "distances") return;
         if (axes_.size() != before.size())
             fail(ErrorKind::usage, "--axes: {} names for points of {} coordinates", axes_.size(),

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "core/json.hpp"
 #include "core/spec.hpp"
 #include "core/text.hpp"
+#include "io/format.hpp"
 #include "plot/drawing/html_text.hpp"
 
 namespace stipple::page {
@@ -103,13 +103,17 @@ Json file_of(const std::string& domain) {
 
 bool is_experiment(const std::string& domain) { return domain.starts_with("parameters:"); }
 
-std::vector<std::string> log_parameters(const std::string& domain) {
-    std::vector<std::string> names;
-    const Json file = file_of(domain);
-    for (const Json& parameter : file.is_null() ? Json() : file["parameters"])
-        if (parameter.value("scale", Json()) == "log")
-            names.push_back(words_of(parameter.value("name", Json(""))));
-    return names;
+std::vector<bool> log_axes(const PointSet& points) {
+    const Json file = file_of(points.domain->spec());
+    std::vector<bool> logs;
+    for (const std::string& name : coordinate_names(points.dimension(), points.provenance))
+        logs.push_back(std::ranges::any_of(
+            file.is_null() ? Json() : file["parameters"], [&](const Json& parameter) {
+                return words_of(parameter.value("name", Json(""))) == name &&
+                       (parameter.value("scale", Json()) == "log" ||
+                        parameter.value("distribution", Json()) == "log-uniform");
+            }));
+    return logs;
 }
 
 std::string parameter_table(const std::string& domain) {

@@ -6,13 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "core/point_set.hpp"
+
 namespace stipple::page {
 
 /// Whether a domain's spec is that of named parameters.
 bool is_experiment(const std::string& domain);
 
-/// Names of the parameters on a log scale; empty for other domains.
-std::vector<std::string> log_parameters(const std::string& domain);
+/// Whether each coordinate of points is a parameter on a log scale, or log-uniform.
+std::vector<bool> log_axes(const PointSet& points);
 
 /// Table of the parameters: names, units and possible values; followed by their constraints and
 /// correlations. Empty for other domains.

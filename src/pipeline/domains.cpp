@@ -97,8 +97,8 @@ const Warp& warp_of_domain(const std::string& name) {
         "unknown domain '{}'", name);
 }
 
-/// Parses the factors between " x ". A factor that names no coordinates has all `dimension` of
-/// them.
+}  // namespace
+
 std::vector<Factor> parse_factors(std::string_view text, std::size_t dimension,
                                   const RunContext& run) {
     std::vector<Factor> factors;
@@ -122,8 +122,6 @@ std::vector<Factor> parse_factors(std::string_view text, std::size_t dimension,
     }
     return factors;
 }
-
-}  // namespace
 
 DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunContext& run) {
     auto factors = parse_factors(text, dimension, run);

@@ -35,6 +35,11 @@ DomainPtr filled_up(std::vector<Factor> factors, std::size_t dimension);
 std::vector<Factor> warped_factors(const DomainPtr& domain,
                                    std::span<const std::size_t> boxless = {});
 
+/// Parses the factors of a domain between " x ". A factor that names no coordinates has all
+/// `dimension` of them, whatever its own dimension. @throws Error(usage)
+std::vector<Factor> parse_factors(std::string_view text, std::size_t dimension,
+                                  const RunContext& run = {});
+
 /// Parses a domain: unit-cube, box:bounds=[lo..hi,...], a warp's spec, or several of these with
 /// coordinates, joined by " x ".
 /// @throws Error(usage); Error(input) if it does not fit points of this dimension

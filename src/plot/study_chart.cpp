@@ -89,9 +89,10 @@ std::string name_of(const Topic& topic, std::span<const Topic> all) {
     return name;
 }
 
-/// The topics that match the key. Without a key: those called "value", then those of measures
-/// without a value.
+/// The topics whose key is `key` or, without any, has it as a part. Without a key: those called
+/// "value", then those of measures without a value.
 std::vector<Topic> topics_of(std::span<const MeanRow> means, const std::string& key) {
+    const bool whole = std::ranges::count(means, key, &MeanRow::key) > 0;
     const auto is_value = [](const Topic& topic) { return last_part(topic.key) == "value"; };
     std::set<std::string> valued;
     for (const MeanRow& row : means)
@@ -100,7 +101,8 @@ std::vector<Topic> topics_of(std::span<const MeanRow> means, const std::string& 
     for (const MeanRow& row : means) {
         const Topic topic = topic_of(row);
         const bool wanted = key.empty() ? is_value(topic) || !valued.contains(row.measure)
-                                        : row.key == key || names_result(row.key, key);
+                            : whole     ? row.key == key
+                                        : names_result(row.key, key);
         if (!wanted || !std::isfinite(row.mean)) continue;
         if (std::ranges::find(topics, topic) == topics.end()) topics.push_back(topic);
     }

@@ -12,7 +12,9 @@
 #include "core/json.hpp"
 #include "core/spec.hpp"
 #include "core/text.hpp"
+#include "io/columns.hpp"
 #include "io/provenance.hpp"
+#include "page/experiment.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/domains.hpp"
 #include "pipeline/generated.hpp"
@@ -150,6 +152,22 @@ std::string domain_of_columns(const std::string& domain, std::size_t dimension,
         kept.push_back({std::move(factor.domain), std::move(places)});
     }
     return filled_up(std::move(kept), columns.size())->spec();
+}
+
+/// The names of a domain's coordinates, None where it has none, and their levels. A factor that is
+/// the whole domain may have more or fewer coordinates than `dimension`.
+py::tuple names_of_domain(const std::string& text, std::size_t dimension) {
+    std::vector<std::optional<std::string>> names(dimension);
+    py::dict levels;
+    for (const auto& [domain, coordinates] : parse_factors(text, dimension)) {
+        const auto own = domain->names();
+        const bool whole = coordinates == all_coordinates(dimension);
+        if (whole) names.assign(own.begin(), own.end());
+        for (std::size_t k = 0; k < std::min(own.size(), coordinates.size()) && !whole; ++k)
+            if (coordinates[k] < dimension) names[coordinates[k]] = own[k];
+        for (const auto& [name, words] : domain->levels()) levels[py::str(name)] = words;
+    }
+    return py::make_tuple(names, levels);
 }
 
 /// The spec and the dimension of the domain that a parameter file describes.
@@ -313,6 +331,9 @@ plot::Drawing picture(const std::vector<std::pair<std::string, Given>>& given, d
         picture.sets.push_back(&sets[i]);
         picture.names.push_back(given[i].first);
     }
+    picture.log = page::log_axes(sets[0]);
+    for (std::size_t k = 0; k < picture.log.size(); ++k)
+        picture.log[k] = picture.log[k] && plot::is_positive(picture.sets, k);
     return released(how, [&](const RunContext& run) {
         const plot::PictureStyle style{.width = width, .height = height, .title = title};
         return plot::draw_points(picture, style, run);
@@ -478,6 +499,11 @@ PYBIND11_MODULE(_stipple, module) {
     module.def("warp", python::warp);
     module.def("domain_of_images", python::domain_of_images);
     module.def("domain_of_columns", python::domain_of_columns);
+    module.def("names_of_domain", python::names_of_domain);
+    module.def("log_axes", [](const python::Given& given) {
+        return stipple::page::log_axes(python::set_of(given));
+    });
+    module.def("is_word", stipple::io::is_word);
     module.def("parameters", python::parameters);
     module.def("scramble", python::scramble);
     module.def("warp_density", python::warp_density);

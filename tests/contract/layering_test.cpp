@@ -140,10 +140,10 @@ const std::set<std::string> ordinary = {
 
 /// Likewise in the folders after the units, which take from records whatever depends on a unit.
 const std::set<std::string> ordinary_after_units = {
-    "bin",      "csv",        "json",   "jsonl", "svg",  // values of --format
-    "grid",     "image",      "pixel",  "power",         // keys of results and their files
-    "integers", "parameters",                            // keys of parameter files
-    "jittered", "random",     "uniform"};  // picture of a warp's strata, --seed random, a density
+    "bin",      "csv",         "json",       "jsonl", "svg",  // values of --format
+    "grid",     "image",       "pixel",      "power",         // keys of results and their files
+    "integers", "log-uniform", "parameters",                  // words of parameter files
+    "jittered", "random",      "uniform"};  // picture of a warp's strata, --seed random, a density
 
 /// Files that name units of other files, with these units.
 const std::map<std::string, std::set<std::string>> exceptions = {

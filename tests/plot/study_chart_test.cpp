@@ -165,6 +165,22 @@ TEST(StudyChart, EveryMeasureIsDrawnOrLeftOutByName) {
     EXPECT_THAT(left_out, ElementsAre("pairs"));
 }
 
+// A result's name draws this result alone; a part of names, all that have it.
+TEST(StudyChart, AKeyIsAResultOrAPartOfSome) {
+    std::vector<MeanRow> means;
+    for (const char* key : {"value", "centered.value", "centered.squared"})
+        for (const std::uint64_t n : {16, 64}) means.push_back(mean_at(n, 3, 1, "a", key));
+    const auto names = [&](const std::string& key) {
+        std::vector<std::string> found;
+        for (const auto& panel : study_chart(means, key).chart.panels)
+            found.push_back(panel.y_name);
+        return found;
+    };
+    EXPECT_THAT(names("value"), ElementsAre("star discrepancy"));
+    EXPECT_THAT(names("centered"), ElementsAre("centered", "centered squared"));
+    EXPECT_EQ(names("").size(), 2U);
+}
+
 TEST(StudyChart, CountsThatArePowersOfTwoAreNumberedSo) {
     const auto numbers = [](std::initializer_list<std::uint64_t> counts) {
         std::vector<MeanRow> means;

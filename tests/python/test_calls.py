@@ -365,6 +365,15 @@ def test_pictures_have_the_given_title_and_labels():
     assert ">first<" in named and ">second<" in named and ">a<" not in named
     with pytest.raises(stipple.Error, match="labels: 1 names for 2 sets"):
         stipple.plot(both, labels="first")
+    study = stipple.study(["random", "sobol:scramble=owen"], "star-discrepancy", n=[16, 64], seeds=2)
+    for rows in (study, list(study)):
+        svg = stipple.plot(rows, labels=["noise", "net"]).svg
+        assert ">noise" in svg and ">net" in svg and ">random" not in svg
+    assert study[0].generator == "random"
+    with pytest.raises(stipple.Error, match="labels: 1 names for 2 generators"):
+        stipple.plot(study, labels="noise")
+    with pytest.raises(stipple.Error, match=r"study\[1\] is 3"):
+        stipple.plot([study[0], 3], labels=["noise", "net"])
     spectrum = stipple.analyze("periodogram", x)
     assert ">my spectrum<" in stipple.plot({"a": spectrum, "b": spectrum}, title="my spectrum").svg
 
@@ -468,6 +477,49 @@ def test_studies_have_pictures_as_the_program_draws_them(run, tmp_path):
         stipple.plot(study, key="nothing")
     with pytest.warns(stipple.Note, match="key selects one"):
         stipple.plot(stipple.study("random", "nearest-neighbor", n=[16, 64]))
+
+
+# A name that a result has draws this result; a part of a name draws all that have it.
+def test_a_key_draws_what_it_names():
+    study = stipple.study("random", ["star-discrepancy", "l2-discrepancy"], n=[16, 64])
+    one = stipple.plot(study, key="value").svg
+    assert one == stipple.plot([row for row in study if row.key == "value"]).svg
+    assert "discrepancy<" in one and "centered" not in one
+    both = stipple.plot(study, key="centered").svg
+    assert ">centered<" in both and ">centered squared<" in both
+
+
+def test_sets_beyond_the_memory_are_refused_at_once():
+    for arguments, options in (((4,), {"sets": 10**9}), ((10**6, 10), {"sets": 100, "max_memory": 2 * 10**8})):
+        with pytest.raises(stipple.Error, match="the array of all sets needs .* memory.* limit is .*raise the limit with max_memory") as caught:
+            stipple.generate("random", *arguments, **options)
+        assert caught.value.kind == "limit"
+    with pytest.raises(stipple.Error, match="the point set needs .* of memory") as caught:
+        stipple.generate("random", 2**50, 10)
+    assert caught.value.kind == "limit"
+
+
+LOGS = {"parameters": [{"name": "a", "range": [1, 1000], "scale": "log"},
+                       {"name": "b", "distribution": "log-uniform", "low": 1, "high": 1000}, {"name": "c", "range": [1, 1000]}]}
+
+
+def test_parameters_on_a_log_scale_have_log_axes(run, tmp_path):
+    x = stipple.generate("sobol", 64, parameters=LOGS, return_meta=True)
+    (tmp_path / "p.json").write_text(json.dumps({"parameters": LOGS["parameters"][:2]}))
+    run("generate", "sobol", "-n", "64", "--parameters", str(tmp_path / "p.json"), "-o", str(tmp_path / "x.json"))
+    run("plot", str(tmp_path / "x.json"), "-o", str(tmp_path / "there.svg"))
+
+    def decades(svg):
+        return sorted(text for text in re.findall(r">(\d+)</text>", svg) if set(text) <= {"0", "1"})
+
+    assert decades(stipple.plot(x[:, :2]).svg) == decades((tmp_path / "there.svg").read_text()) == sorted(["1", "10", "100", "1000"] * 2)
+    assert decades(stipple.plot(x[:, [2, 1]]).svg).count("10") == 1 and decades(stipple.plot(np.asarray(x[:, :2])).svg).count("10") == 0
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    for columns, scales in (([0, 1], ("log", "log")), ([2, 0], ("linear", "log"))):
+        figure, axes = pyplot.subplots()
+        stipple.plot(x[:, columns], axes)
+        assert (axes.get_xscale(), axes.get_yscale()) == scales
+        pyplot.close(figure)
 
 
 def test_units_are_listed_and_described():

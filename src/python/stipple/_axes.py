@@ -21,14 +21,19 @@ def axes_of(ax: Any) -> list[Any]:
     return found
 
 
-def draw_points(ax: Any, sets: list[tuple[str, Floats]], title: str | None, legend: bool) -> None:
+def draw_points(ax: Any, sets: list[tuple[str, Floats]], title: str | None, legend: bool,
+                logs: list[bool]) -> None:
     for name, rows in sets:
         if rows.shape[1] != 2:
             raise Error(
                 f"axes of Matplotlib show 2 coordinates; the points have {rows.shape[1]}", "input"
             )
         ax.scatter(rows[:, 0], rows[:, 1], s=max(1, 4000 / len(rows)), label=name)
-    ax.set_aspect("equal")
+    positive = [log and all((rows[:, k] > 0).all() for _, rows in sets) for k, log in enumerate(logs)]
+    for scale, log in zip((ax.set_xscale, ax.set_yscale), positive):
+        if log:
+            scale("log")
+    ax.set_aspect("auto" if any(positive) else "equal")
     if title is not None:
         ax.set_title(title)
     if legend:

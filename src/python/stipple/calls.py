@@ -625,20 +625,26 @@ def report(path: Path, x: PointsLike | Mapping[str, PointsLike], *, threads: int
     return Page(name)
 
 
-def _relabelled(x: Any, labels: str | Iterable[str]) -> dict[str, Any]:
-    """The sets or reports with these names."""
+def _relabelled(x: Any, labels: str | Iterable[str]) -> Any:
+    """The sets or reports with these names, or the study with these names of its generators."""
     names = [labels] if isinstance(labels, str) or not isinstance(labels, Iterable) else list(labels)
     names = [text("labels", name, "names") for name in names]
-    values = list(x.values()) if isinstance(x, dict) else [x]
+    generators = list(dict.fromkeys(row[0] for row in _rows(x))) if _is_study(x) else []
+    values = generators or (list(x.values()) if isinstance(x, dict) else [x])
     if len(names) != len(values) or len(set(names)) != len(names):
-        raise Error(f"labels: {len(names)} names for {len(values)} sets; expected one for each, "
-                    "all different")
-    return dict(zip(names, values))
+        raise Error(f"labels: {len(names)} names for {len(values)} "
+                    f"{'generators' if generators else 'sets'}; expected one for each, all different")
+    found = dict(zip(generators or names, names if generators else values))
+    return [row._replace(generator=found[row.generator]) for row in x] if generators else found
+
+
+def _is_study(x: Any) -> bool:
+    return isinstance(x, list) and bool(x) and isinstance(x[0], StudyValue)
 
 
 def _chart_of(x: Any, key: str) -> _stipple.Chart | None:
     """The chart of a study, or of reports; None for points."""
-    if isinstance(x, Study) or isinstance(x, list) and x and isinstance(x[0], StudyValue):
+    if isinstance(x, Study) or _is_study(x):
         return _stipple.study_chart(_rows(x), key)
     reports = x if isinstance(x, dict) else {"report": x}
     if not reports or not all(isinstance(one, Report) for one in reports.values()):
@@ -676,10 +682,12 @@ def plot(x: Any, ax: Any = None, *, key: str = "", width: float = 0, height: flo
             A Study, or a list of its rows: means against the number of points
     ax      axes of Matplotlib, to draw there: points (n, 2), or a chart. A list of axes has one for
             each panel of the chart; single axes show the first panel
-    key     the result to draw, of reports and studies
+    key     the result to draw, of reports and studies; if there is none of this name, all that have
+            it as a part: "centered" draws "centered.value" and "centered.squared"
     width, height  of the picture; 0: automatic
     title   replaces the title; "" leaves out title and subtitle
-    labels  names of the sets in the legend; default: the keys of the dictionary
+    labels  names in the legend, of the sets, or of a study's generators; default: the keys of the
+            dictionary, or the specs of the generators
 
     Returns ax if given, else a Picture, which notebooks display; its save(path) writes it as .svg,
     .pdf or .png. Raises Error for what cannot be drawn.
@@ -701,6 +709,8 @@ def plot(x: Any, ax: Any = None, *, key: str = "", width: float = 0, height: flo
     if chart:
         _axes.draw_chart(axes, chart, title)
         return ax
-    sets = [(name, one[0]) for name, one in _named(x)]
-    _axes.draw_points(axes[0], sets, title, isinstance(x, Mapping))
+    sets = _named(x)
+    logs = _stipple.log_axes(sets[0][1]) if sets[0][1][0].shape[1] == 2 else []
+    _axes.draw_points(axes[0], [(name, one[0]) for name, one in sets], title,
+                      isinstance(x, Mapping), logs)
     return ax
