@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import copy
 import json
-import os
 from collections.abc import Callable
 from typing import Any, Literal, TypeAlias
 
@@ -13,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _frames, _stipple
-from ._arguments import Floats, refuse, settings_of, shown, text
+from ._arguments import Floats, refuse, shown, text
 from ._errors import Error
 
 Given: TypeAlias = tuple[Floats, str, str]
@@ -193,60 +192,6 @@ def as_rows(x: ArrayLike, name: str = "x", most: int = 2) -> Floats:
     return rows.view(np.ndarray)
 
 
-def _content_of(settings: str) -> dict[str, Any]:
-    """The content of the parameters of a domain, given by file=... or json=[...]."""
-    key, _, value = settings.partition("=")
-    value = value[1:-1] if value[:1] == "[" and value[-1:] == "]" else value
-    if key not in ("file", "json"):
-        return {}
-    if key == "file":
-        spec, _ = _stipple.parameters(os.fsencode(value))
-        value = spec.partition("=[")[2][:-1]
-    try:
-        content = json.loads(value)
-    except ValueError as error:
-        raise Error(f"domain: no content of a parameter file: {error}", "input") from None
-    return content if isinstance(content, dict) else {}
-
-
-def _factors(domain: str) -> list[str]:
-    """The factors of a product; " x " in brackets separates none."""
-    factors: list[str] = []
-    for part in domain.split(" x "):
-        if factors and factors[-1].count("[") > factors[-1].count("]"):
-            factors[-1] += f" x {part}"
-        else:
-            factors.append(part)
-    return factors
-
-
-def _names_of(domain: str, d: int) -> tuple[list[str | None], dict[str, list[str]]]:
-    """The names of a domain's coordinates, None where it has none, and their levels. Parameters
-    that are the whole domain may be fewer or more than d."""
-    names: list[str | None] = [None] * d
-    levels: dict[str, list[str]] = {}
-    for factor in _factors(domain):
-        head, _, settings = factor.partition(":")
-        unit, _, places = head.partition("@")
-        if unit != "parameters":
-            continue
-        entries = _content_of(settings).get("parameters", [])
-        if not isinstance(entries, list) or not all(
-            isinstance(entry, dict) and isinstance(entry.get("name"), str)
-            and isinstance(entry.get("levels", []), list) for entry in entries
-        ):
-            continue  # the library says what is wrong
-        if not places:
-            names = [None] * len(entries)
-        coordinates = [int(place) - 1 for place in places.split(",")] if places else [*range(len(entries))]
-        for place, entry in zip(coordinates, entries):
-            if 0 <= place < len(names):
-                names[place] = entry["name"]
-            if any(isinstance(word, str) for word in entry.get("levels", [])):
-                levels[entry["name"]] = entry["levels"]
-    return names, levels
-
-
 def _order(names: list[str], wanted: list[str | None], name: str) -> list[int] | None:
     """The places of the wanted names; columns without them are taken in order. None: names that
     carry no meaning, such as x, y, are not those of the domain."""
@@ -281,7 +226,7 @@ def matched(one: Given, name: str = "x") -> Given:
     names, words = meta.get("columns"), meta.get("levels") or {}
     if "parameters" not in domain or not names or len(names) != rows.shape[1]:
         return one
-    wanted, levels = _names_of(domain, len(names))
+    wanted, levels = _stipple.names_of_domain(domain, len(names))
     order = _order(names, wanted, name) if any(wanted) else None
     if order is None:
         return one

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from . import _stipple
 from ._arguments import Floats, shown
 from ._errors import Error
 
@@ -66,14 +67,9 @@ def default_names(d: int) -> list[str]:
 
 
 def is_word(text: str) -> bool:
-    """Whether a header can hold a name, or a file a word, so that it is read back: no number, and
-    no text with quotes or control characters."""
-    try:
-        float(text)
-        return False
-    except ValueError:
-        plain = text == text.strip() and '"' not in text and text.isprintable()
-        return plain and 0 < len(text.encode("utf-8", "replace")) <= 200 and text[0] not in "#[{"
+    """Whether a header can hold a name, or a file a word, so that it is read back. (The library takes
+    no lone surrogates, which are not printable.)"""
+    return text.isprintable() and _stipple.is_word(text)
 
 
 def kept_names(names: list[str]) -> list[str]:
