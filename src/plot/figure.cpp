@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "plot/drawing/letters.hpp"
-#include "plot/drawing/sheet.hpp"
 
 namespace stipple::plot {
 namespace {
@@ -80,6 +80,88 @@ struct Trial {
     const bool both = given.size() == 2;
     fail(ErrorKind::usage, "{} {} no room for the picture; at least {} {}", join(given, " and "),
          both ? "leave" : "leaves", join(enough, " and "), both ? "do" : "does");
+}
+
+/// Translates shapes of every kind.
+struct Mover {
+    double right;
+    double down;
+
+    void move(Position& position) const {
+        position.x += right;
+        position.y += down;
+    }
+    void move(Area& area) const {
+        area.left += right;
+        area.top += down;
+    }
+    void operator()(Line& line) const {
+        for (Position& vertex : line.vertices) move(vertex);
+    }
+    void operator()(Patch& patch) const {
+        for (Position& vertex : patch.vertices) move(vertex);
+    }
+    void operator()(Disks& disks) const {
+        for (Position& centre : disks.centres) move(centre);
+    }
+    void operator()(Label& label) const { move(label.at); }
+    void operator()(PixelImage& image) const { move(image.area); }
+    void operator()(ClipWindow& window) const { move(window.area); }
+    void operator()(SvgGroup&) const {}
+};
+
+void add_moved(Drawing& drawing, Drawing part, double right, double down) {
+    for (Shape& shape : part.shapes) std::visit(Mover{right, down}, shape);
+    std::ranges::move(part.shapes, std::back_inserter(drawing.shapes));
+}
+
+/// Number of columns for `parts` drawings that are about square. If `ratio` is the sheet's width
+/// over height, chooses the number that makes the drawings largest. If it is 0: one row for up to
+/// three drawings, otherwise two, three or four columns.
+std::size_t sheet_columns(std::size_t parts, double ratio) {
+    if (ratio > 0) {
+        const auto rows_of = [parts](std::size_t columns) {
+            return (parts + columns - 1) / columns;
+        };
+        std::size_t best = 1;
+        double largest = 0;
+        for (std::size_t columns = 1; columns <= parts; ++columns) {
+            const std::size_t rows = rows_of(columns);
+            const double side =
+                std::min(ratio / static_cast<double>(columns), 1 / static_cast<double>(rows));
+            if (side > largest || (side == largest && rows < rows_of(best))) best = columns;
+            largest = std::max(largest, side);
+        }
+        return best;
+    }
+    if (parts <= 3) return parts;
+    return parts == 4 ? 2 : parts <= 9 ? 3 : 4;
+}
+
+/// Adds parts in rows below `top`, from the left, and enlarges the drawing as needed.
+void add_rows(Drawing& drawing, std::vector<Drawing> parts, std::size_t columns, double top) {
+    double down = top;
+    for (std::size_t first = 0; first < parts.size(); first += columns) {
+        double right = 0;
+        double highest = 0;
+        for (std::size_t i = first; i < std::min(first + columns, parts.size()); ++i) {
+            const double width = parts[i].width;
+            highest = std::max(highest, parts[i].height);
+            add_moved(drawing, std::move(parts[i]), right, down);
+            right += width;
+        }
+        drawing.width = std::max(drawing.width, right);
+        down += highest;
+    }
+    drawing.height = down;
+}
+
+/// Increases a drawing's height to `height`, centring its content; higher drawings are unchanged.
+void fill_height(Drawing& drawing, double height) {
+    const double more = height - drawing.height;
+    if (!(more > 0)) return;
+    for (Shape& shape : drawing.shapes) std::visit(Mover{0, std::floor(more / 2)}, shape);
+    drawing.height = height;
 }
 
 /// Arrangement of frames on a sheet.
