@@ -22,7 +22,6 @@
 #include "study/study_file.hpp"
 #include "study/study_run.hpp"
 #include "study/study_summary.hpp"
-#include "study/wide_table.hpp"
 #include "study/work_queue.hpp"
 
 namespace stipple::cli {

@@ -125,4 +125,15 @@ bool is_error_key(std::string_view key);
 std::optional<std::vector<MeanRow>> read_means(std::string_view bytes, const std::string& source,
                                                const RunContext& run);
 
+// A wide table has a row for each measure, key, dimension and count, and columns for each
+// generator: its mean, and the half-width of its t interval. For errors (keys that end with error),
+// these are the root mean square and half the width of its interval.
+
+/// The table as CSV or JSONL, with the columns GENERATOR and GENERATOR half_width.
+std::string wide_table(std::span<const MeanRow> means, TableStyle style);
+
+/// The table for LaTeX, with cells MEAN +- HALF_WIDTH, without columns that have the same value in
+/// all rows. @param command that made it, for a comment
+std::string wide_latex(std::span<const MeanRow> means, const std::string& command);
+
 }  // namespace stipple
