@@ -829,15 +829,11 @@ class Plot {
 
     // ---------------------------------------------------------------- provenance
 
-    [[nodiscard]] std::string command() const {
-        std::string text = "stipple plot" + command_text(request_, {"seed"});
-        if (request_.seed) text += typed_option("seed", std::to_string(seed_), false);
-        return text;
-    }
-
     /// Metadata of the picture: version, command, and the provenance of a single generated set.
     [[nodiscard]] plot::PictureNotes notes_of() const {
-        Json note = {{"tool", "stipple"}, {"version", STIPPLE_VERSION}, {"command", command()}};
+        Json note = {{"tool", "stipple"},
+                     {"version", STIPPLE_VERSION},
+                     {"command", command_text(request_, {}, seed_)}};
         if (sets_.size() == 1 && !sets_[0].points.provenance.generator.empty())
             note["meta"] = io::to_json(sets_[0].points.provenance);
         return {{"Software", fmt::format("stipple {}", STIPPLE_VERSION)},

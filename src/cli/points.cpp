@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 
 #include "cli/inputs.hpp"
 #include "cli/launched.hpp"
@@ -22,25 +21,6 @@
 
 namespace stipple::cli {
 namespace {
-
-/// Command for the provenance: makes these points in this format, without options that do not
-/// affect them.
-std::string command_of(const GenerateRequest& request, const SetsToMake& job,
-                       const Target& target) {
-    const Generator& generator = *job.generator;
-    const auto& options = generator.options.options();
-    std::string text = "stipple generate " + request.unit;
-    for (const auto& [name, value] : request.settings) {
-        if (std::ranges::find(generator.writes, name) != generator.writes.end()) continue;
-        const bool flag = std::ranges::find(options, name, &Option::name)->type == "flag";
-        if (!flag || std::get<bool>(job.options.find(name).value))
-            text += typed_option(name, value, flag);
-    }
-    text += command_text(request, {"format", "seed"});
-    if (request.seed) text += typed_option("seed", std::to_string(job.request.seed), false);
-    if (target.format->name != "csv") text += typed_option("format", target.format->name, false);
-    return text;
-}
 
 /// Files for --vector-output: the lattice in the provenance, from the results of its search if it
 /// was searched for.
@@ -114,11 +94,28 @@ bool is_terminal(const std::string& path) {
     return path == "-" && isatty(STDOUT_FILENO) == 1 && !is_launched();
 }
 
+namespace {
+
+/// " --name value", quoted for a shell.
 std::string typed_option(const std::string& name, const std::string& value, bool flag) {
     return flag ? fmt::format(" --{}", name) : fmt::format(" --{} {}", name, shell_word(value));
 }
 
-namespace {
+/// The unit's own options as typed, without flags that are off.
+std::string typed_own(const Arguments& arguments, const std::vector<std::string>& left_out) {
+    if (arguments.settings.empty()) return {};
+    const VerbInfo& info = info_of(*arguments.verb);
+    const auto known = own_options(info.verb, unit_of(info.name, arguments.unit));
+    std::string text;
+    for (const auto& [name, value] : arguments.settings) {
+        const Option& option = *std::ranges::find(known, name, &Option::name);
+        const bool flag = option.type == "flag";
+        if (std::ranges::find(left_out, name) == left_out.end() &&
+            (!flag || std::get<bool>(option.parse(value))))
+            text += typed_option(name, value, flag);
+    }
+    return text;
+}
 
 std::string typed_common(const Arguments& arguments, const std::string& name,
                          const std::string& value) {
@@ -128,16 +125,19 @@ std::string typed_common(const Arguments& arguments, const std::string& name,
 
 }  // namespace
 
-std::string command_text(const Arguments& arguments,
-                         std::initializer_list<std::string_view> left_out) {
-    constexpr std::array<std::string_view, 5> silent = {"output", "threads", "quiet", "progress",
-                                                        "max-memory"};
-    std::string text;
+std::string command_text(const Arguments& arguments, std::vector<std::string> left_out,
+                         std::optional<std::uint64_t> seed) {
+    if (seed) left_out.emplace_back("seed");
+    std::string text = "stipple " + info_of(*arguments.verb).name;
+    if (!arguments.unit.empty()) text += " " + arguments.unit;
+    text += typed_own(arguments, left_out);
+    for (const char* silent : {"output", "threads", "quiet", "progress", "max-memory"})
+        left_out.emplace_back(silent);
     for (const std::string& input : arguments.inputs) text += fmt::format(" {}", shell_word(input));
     for (const auto& [name, value] : arguments.common)
-        if (std::ranges::find(silent, name) == silent.end() &&
-            std::ranges::find(left_out, name) == left_out.end())
+        if (std::ranges::find(left_out, name) == left_out.end())
             text += typed_common(arguments, name, value);
+    if (seed && arguments.has("seed")) text += fmt::format(" --seed {}", *seed);
     return text;
 }
 
@@ -245,7 +245,10 @@ SetsToMake sets_to_make(const GenerateRequest& request, Session& session) {
 int GenerateRequest::perform(Session& session) const {
     SetsToMake job = sets_to_make(*this, session);
     const Target target = target_of(*this);
-    job.command = command_of(*this, job, target);
+    std::vector<std::string> left_out = job.generator->writes;
+    left_out.emplace_back("format");
+    job.command = command_text(*this, std::move(left_out), job.request.seed);
+    if (target.format->name != "csv") job.command += " --format " + target.format->name;
     produce(job, target, session.run());
     // A search that was interrupted has written its best points, but scripts must not go on.
     return session.run().stop.stop_requested() ? 130 : 0;

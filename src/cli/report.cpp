@@ -345,10 +345,8 @@ class Reporter {
 
     /// Command that makes this page, without options that do not affect it.
     [[nodiscard]] std::string command() const {
-        std::string text =
-            "stipple report" + command_text(request_, {"format", "check", "fail-on", "seed"});
-        if (request_.seed) text += fmt::format(" --seed {}", seed_);
-        return text + (json_ ? " --json" : " -o report.html");
+        return command_text(request_, {"format", "check", "fail-on"}, seed_) +
+               (json_ ? " --json" : " -o report.html");
     }
 
     const ReportRequest& request_;

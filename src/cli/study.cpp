@@ -113,7 +113,7 @@ TableStyle style_of(StudyFormat format) {
 
 /// Command that makes the table, without options that do not affect it.
 std::string command_of(const StudyRequest& request) {
-    return "stipple study" + command_text(request, {"resume", "overwrite", "yes"});
+    return command_text(request, {"resume", "overwrite", "yes"});
 }
 
 /// The means as a wide table, in the format of the request.

@@ -54,9 +54,6 @@ std::string shell_word(const std::string& word);
 std::string typed_options(const Arguments& arguments,
                           std::initializer_list<std::string_view> names);
 
-/// " --name value", quoted for a shell.
-std::string typed_option(const std::string& name, const std::string& value, bool flag);
-
 /// A generator of --generate as words of 'stipple generate', quoted for a shell.
 std::string typed_generator(const std::string& text);
 
@@ -69,10 +66,10 @@ bool seed_matters(const Generator& generator, const Provenance& from);
 std::vector<std::string> changed_options(const Provenance& from, const Generator& generator,
                                          std::string_view typed);
 
-/// A verb's inputs and common options as typed, quoted for a shell; without the options in
-/// `left_out` and those that never affect a result.
-std::string command_text(const Arguments& arguments,
-                         std::initializer_list<std::string_view> left_out = {});
+/// The command of a verb as typed, quoted for a shell; without the options in `left_out` and those
+/// that never affect a result. @param seed replaces that of --seed, if given, which may be random
+std::string command_text(const Arguments& arguments, std::vector<std::string> left_out = {},
+                         std::optional<std::uint64_t> seed = {});
 
 /// Stores in a measurement the mean of an analyzer's results over sets, with standard errors if
 /// there are several.
