@@ -144,32 +144,6 @@ Error named_error(const Error& e, const std::string& input, const std::string& h
             hint.empty() ? e.hint() : hint};
 }
 
-std::size_t leave_out_gaps(PointSet& set, const std::string& input, const RunContext& run) {
-    const std::size_t d = set.dimension();
-    const std::size_t all = set.count();
-    std::vector<double> rows;
-    std::vector<double> densities;
-    for (std::size_t i = 0; i < all; ++i) {
-        if (std::ranges::any_of(set[i], [](double x) { return std::isnan(x); })) continue;
-        rows.insert(rows.end(), set[i].begin(), set[i].end());
-        if (!set.densities.empty()) densities.push_back(set.densities[i]);
-    }
-    const std::size_t left_out = all - rows.size() / d;
-    if (left_out == 0) return 0;
-    if (rows.empty())
-        fail(ErrorKind::input, "{}: each of its {} rows has a missing number",
-             io::source_name(input), all);
-    run.notify(fmt::format("{}: {} of {} rows are left out; numbers are missing in them",
-                           io::source_name(input), left_out, all));
-    PointSet kept(std::move(rows), d);
-    kept.domain = std::move(set.domain);
-    kept.densities = std::move(densities);
-    kept.provenance = std::move(set.provenance);
-    kept.provenance.count = kept.count();
-    set = std::move(kept);
-    return left_out;
-}
-
 std::vector<PointSet> read_input(const std::string& path, const Sources& from,
                                  const RunContext& run) {
     return read_all(*open_input(path, from, run), from, run);
@@ -239,6 +213,34 @@ struct Bounds {
     }
 };
 
+/// Removes rows with a missing number (NaN), such as failed runs; notes and returns how many.
+/// @throws Error(input) if none remain
+std::size_t leave_out_gaps(PointSet& set, const std::string& input, const RunContext& run) {
+    const std::size_t d = set.dimension();
+    const std::size_t all = set.count();
+    std::vector<double> rows;
+    std::vector<double> densities;
+    for (std::size_t i = 0; i < all; ++i) {
+        if (std::ranges::any_of(set[i], [](double x) { return std::isnan(x); })) continue;
+        rows.insert(rows.end(), set[i].begin(), set[i].end());
+        if (!set.densities.empty()) densities.push_back(set.densities[i]);
+    }
+    const std::size_t left_out = all - rows.size() / d;
+    if (left_out == 0) return 0;
+    if (rows.empty())
+        fail(ErrorKind::input, "{}: each of its {} rows has a missing number",
+             io::source_name(input), all);
+    run.notify(fmt::format("{}: {} of {} rows are left out; numbers are missing in them",
+                           io::source_name(input), left_out, all));
+    PointSet kept(std::move(rows), d);
+    kept.domain = std::move(set.domain);
+    kept.densities = std::move(densities);
+    kept.provenance = std::move(set.provenance);
+    kept.provenance.count = kept.count();
+    set = std::move(kept);
+    return left_out;
+}
+
 /// Sets the domain from --domain, if given.
 void take_domain(PointSet& set, const Sources& from) {
     if (from.domain) set.domain = parse_domain(*from.domain, set.dimension());
@@ -286,10 +288,13 @@ std::optional<Bounds> bounds_of(const Sources& from, const Analyzer& analyzer, s
 
 }  // namespace
 
-PointSet placed(PointSet points, const std::string& input, const Sources& from) {
+std::size_t place(PointSet& points, const std::string& input, const Sources& from,
+                  const RunContext& run) {
+    const std::size_t left_out = leave_out_gaps(points, input, run);
     require_width(points, input);
     naming(input, [&] { take_domain(points, from); });
-    return from.rescale ? rescaled(std::move(points)) : std::move(points);
+    if (from.rescale) points = rescaled(std::move(points));
+    return left_out;
 }
 
 PointSet prepared(PointSet points, const Analyzer& analyzer, const Sources& from) {

@@ -41,10 +41,6 @@ std::unique_ptr<io::PointStream> open_input(const std::string& path, const Sourc
 /// Reads all sets of a stream, with their domains.
 std::vector<PointSet> read_all(io::PointStream& stream, const Sources& from, const RunContext& run);
 
-/// Removes rows with a missing number (NaN), such as failed runs; notes and returns how many.
-/// @throws Error(input) if none remain
-std::size_t leave_out_gaps(PointSet& set, const std::string& input, const RunContext& run);
-
 /// Domain of a file's points, from --parameters or from the file.
 DomainPtr input_domain(const Provenance& provenance, std::size_t dimension, const Sources& from,
                        const RunContext& run);
@@ -64,10 +60,11 @@ auto naming(const std::string& input, const Work& work, const std::string& hint 
     }
 }
 
-/// Applies --domain and --rescale to points of a file; --rescale maps their bounding box to the
-/// unit cube.
-/// @throws Error(input) if that box is too wide for float64
-PointSet placed(PointSet points, const std::string& input, const Sources& from);
+/// Leaves out rows of a file with missing numbers, and applies --domain and --rescale, which maps
+/// the points' bounding box to the unit cube. Notes and returns the number of rows left out.
+/// @throws Error(input) if no row remains, or the box is too wide for float64
+std::size_t place(PointSet& points, const std::string& input, const Sources& from,
+                  const RunContext& run);
 
 /// Applies --domain, --bounds and --rescale. The box of --bounds is mapped to the unit cube for
 /// analyzers of the cube and with --rescale; otherwise it becomes the domain.

@@ -227,8 +227,7 @@ class Plot {
             input, [&] { return read_input(bytes, input, request_, run); },
             "plot takes points, the JSON of 'stipple analyze', or the table of a study");
         for (std::size_t i = 0; i < sets.size(); ++i) {
-            const std::size_t left_out = leave_out_gaps(sets[i], input, run);
-            sets[i] = placed(std::move(sets[i]), input, request_);
+            const std::size_t left_out = place(sets[i], input, request_, run);
             const Provenance made = sets[i].provenance;
             sets_.push_back({std::move(sets[i]), input,
                              sets.size() > 1 ? std::optional(i) : std::nullopt,

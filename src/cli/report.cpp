@@ -150,8 +150,7 @@ class Reporter {
         auto sets = read_input(input, request_, session_.run());
         for (std::size_t i = 0; i < sets.size(); ++i) {
             PendingSet next;
-            next.set.left_out = leave_out_gaps(sets[i], input, session_.run());
-            sets[i] = placed(std::move(sets[i]), input, request_);
+            next.set.left_out = place(sets[i], input, request_, session_.run());
             next.set.source = input;
             next.set.provenance = sets[i].provenance;
             next.set.command = sets[i].provenance.command;
