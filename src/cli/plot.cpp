@@ -602,11 +602,16 @@ class Plot {
         const std::vector<Measurement> found = analyzed_tables();
         for (std::size_t i = 0; i < found.size(); ++i) {
             const Loaded& first = sets_[firsts[i]];
-            std::string title = table_title(found[i], first);
+            const Measurement& m = found[i];
+            std::string title = m.sets > 1 ? m.source : first.title;
             if (found.size() == 1) title = fmt::format("{} of {}", grid_title_, title);
-            add_table(grid_of(found[i]), title, table_subtitle(found[i], first),
-                      names_of(found[i]));
-            if (found.size() > 1) frames_.back().title = found[i].source;
+            const std::string subtitle =
+                m.sets > 1 ? fmt::format("{} points, mean of {} sets", m.count, m.sets)
+                           : subtitle_of(first) + number_of(first);
+            const auto pixel = number_at(m.results, pixel_key);
+            add_table(std::get<Grid>(*m.results.find("grid")), title, subtitle,
+                      pixel ? names_of(pixel) : renamed({}));
+            if (found.size() > 1) frames_.back().title = m.source;
         }
     }
 
@@ -621,24 +626,6 @@ class Plot {
             return plot::spectrum_as_text(table, room);
         };
         frames_.push_back({.title = title, .draw = draw, .write = write, .bar = true});
-    }
-
-    /// Title and subtitle of a measurement of the set, or of the mean over it and later sets.
-    static const std::string& table_title(const Measurement& m, const Loaded& first) {
-        return m.sets > 1 ? m.source : first.title;
-    }
-    static std::string table_subtitle(const Measurement& m, const Loaded& first) {
-        if (m.sets > 1) return fmt::format("{} points, mean of {} sets", m.count, m.sets);
-        return subtitle_of(first) + number_of(first);
-    }
-
-    static const Grid& grid_of(const Measurement& m) {
-        return std::get<Grid>(*m.results.find("grid"));
-    }
-
-    [[nodiscard]] plot::TableNames names_of(const Measurement& m) const {
-        const auto pixel = number_at(m.results, pixel_key);
-        return pixel ? names_of(pixel) : renamed({});
     }
 
     /// Measurements with a plane table, one for each input.
