@@ -83,30 +83,21 @@ class Lines {
   public:
     explicit Lines(const std::string& path) : path_(path), in_(path, std::ios::binary) {
         if (!in_.is_open() && errno != ENOENT) refuse_file(path_, errno);
-        empty_ = !in_.is_open() || in_.peek() == std::ifstream::traits_type::eof();
-        require_read();
     }
-
-    [[nodiscard]] bool is_empty() const { return empty_; }
 
     /// Reads the next line. Returns false at the end of the file; `line` is then the rest without a
     /// line break, often empty.
     bool take(std::string& line) {
         const bool whole = std::getline(in_, line) && !in_.eof();
-        require_read();
+        if (in_.bad()) refuse_file(path_, errno);
         return whole;
     }
 
     void seek(std::uint64_t offset) { in_.seekg(static_cast<std::streamoff>(offset)); }
 
   private:
-    void require_read() const {
-        if (in_.bad()) refuse_file(path_, errno);
-    }
-
     std::string path_;
     std::ifstream in_;
-    bool empty_ = true;
 };
 
 /// Returns the first line of a table's journal; null if it is missing or is not that of a journal.
@@ -268,16 +259,15 @@ void StudyFile::open_file(Start start, const RunContext& run) {
     const bool unfinished = exists(status_of(journal_of(path_)));
     Lines lines(path_);
     std::string first;
-    const bool empty = lines.is_empty();
-    // A crash may have left a part of the first line.
+    // A crash may have left a part of the first line, or nothing.
     bool whole = lines.take(first);
     for (; whole && is_study_preface(first); whole = lines.take(first), ++head_lines_)
         head_size_ += first.size() + 1;
     const bool ours = whole ? table_.is_head(first)
-                            : head_lines_ > 0 ||
+                            : first.empty() || head_lines_ > 0 ||
                                   (start != Start::fresh && (table_.head().starts_with(first) ||
                                                              first.starts_with("{\"generator\":")));
-    if (!empty && !ours)
+    if (!ours)
         fail_with_hint(ErrorKind::input, "name another file with -o",
                        "{}: exists and is not the table of a study", path_);
     if (unfinished && start == Start::fresh)
