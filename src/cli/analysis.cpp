@@ -191,7 +191,7 @@ void Analysis::add(PointSet points, SetOrigin origin) {
     const std::size_t numbers = points.flat().size();
     // The first set of a kind may determine options for the others, so it is measured alone.
     const bool decides =
-        request_.averaged() && analyzer_.follow && is_first(origin.kind, points.dimension());
+        request_.averaged() && analyzer_.follow && !known_group(origin.kind, points.dimension());
     if (numbers >= large || decides) measure_waiting();
     waiting_.push_back({std::move(points), std::move(origin)});
     numbers_ += numbers;
@@ -201,7 +201,7 @@ void Analysis::add(PointSet points, SetOrigin origin) {
 
 void Analysis::add(const Arrival& arrival, const NextRows& next, SetOrigin& origin,
                    const Provenance& made, const RunContext& run) {
-    const Values options = options_for(origin.kind, arrival.dimension());
+    const Values& options = options_for(origin.kind, arrival.dimension());
     Measurement m = timed(origin, arrival.domain, options,
                           [&] { return stipple::analyze(analyzer_, arrival, next, options, run); });
     if (request_.averaged() && origin.kind.empty()) origin.kind = kind_of(made, m.count);
@@ -270,7 +270,7 @@ Analysis::Outcome Analysis::measured_alone(const Waiting& set, RunContext one) c
 
 Measurement Analysis::measured(const Waiting& set, const RunContext& run) const {
     const RunContext named = naming_set(set.origin, run);
-    const Values options = options_for(set.origin.kind, set.points.dimension());
+    const Values& options = options_for(set.origin.kind, set.points.dimension());
     const auto found = [&] {
         return naming(set.origin.source, [&] {
             return Found{stipple::analyze(analyzer_, set.points, options, named),
@@ -312,21 +312,16 @@ std::string Analysis::group_name(const std::string& kind, std::size_t dimension)
     return request_.pool ? "" : fmt::format("{} {}", dimension, kind);
 }
 
-bool Analysis::is_first(const std::string& kind, std::size_t dimension) const {
-    return !group_indices_.contains(group_name(kind, dimension));
+/// The group of a set; nullptr if no set of it has been measured.
+const Analysis::Group* Analysis::known_group(const std::string& kind, std::size_t dimension) const {
+    const auto it = group_indices_.find(group_name(kind, dimension));
+    return it == group_indices_.end() ? nullptr : &groups_[it->second];
 }
 
 /// Options for a set: those of its group if earlier sets determined them, otherwise those given.
-Values Analysis::options_for(const std::string& kind, std::size_t dimension) const {
-    const auto it = group_indices_.find(group_name(kind, dimension));
-    return it == group_indices_.end() ? asked_ : groups_[it->second].options;
-}
-
-/// Index of the group for a kind, which is created if necessary.
-std::size_t Analysis::group_of(const std::string& kind, std::size_t dimension) {
-    const auto [it, is_new] = group_indices_.emplace(group_name(kind, dimension), groups_.size());
-    if (is_new) groups_.push_back({asked_});
-    return it->second;
+const Values& Analysis::options_for(const std::string& kind, std::size_t dimension) const {
+    const Group* group = known_group(kind, dimension);
+    return group ? group->options : asked_;
 }
 
 void Analysis::keep(Measurement m, const SetOrigin& origin) {
@@ -335,7 +330,10 @@ void Analysis::keep(Measurement m, const SetOrigin& origin) {
         measurements_.push_back(std::move(m));
         return;
     }
-    const std::size_t index = group_of(origin.kind, m.dimension);
+    const auto [it, is_new] =
+        group_indices_.emplace(group_name(origin.kind, m.dimension), groups_.size());
+    if (is_new) groups_.push_back({asked_});
+    const std::size_t index = it->second;
     Group& group = groups_[index];
     if (index < measurements_.size() && measurements_[index].dimension != m.dimension)
         fail(ErrorKind::usage, "--pool: the sets have points of {} and of {} coordinates",

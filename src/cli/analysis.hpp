@@ -123,9 +123,8 @@ class Analysis {
     [[nodiscard]] RunContext naming_set(const SetOrigin& origin, const RunContext& run) const;
 
     [[nodiscard]] std::string group_name(const std::string& kind, std::size_t dimension) const;
-    [[nodiscard]] bool is_first(const std::string& kind, std::size_t dimension) const;
-    [[nodiscard]] Values options_for(const std::string& kind, std::size_t dimension) const;
-    std::size_t group_of(const std::string& kind, std::size_t dimension);
+    [[nodiscard]] const Group* known_group(const std::string& kind, std::size_t dimension) const;
+    [[nodiscard]] const Values& options_for(const std::string& kind, std::size_t dimension) const;
     void warn_of_sizes(const Group& group) const;
     void finish_averages();
 
