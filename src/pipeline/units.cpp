@@ -7,7 +7,6 @@
 #include <cctype>
 #include <map>
 #include <set>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -39,46 +38,19 @@ const Unit& find_unit(std::string_view kind, const std::vector<Unit>& units,
     refuse_unit(kind, name);
 }
 
-/// Words by which a unit can be found.
-struct Entry {
-    std::string kind;
-    std::string name;
-    std::vector<std::string> names;  ///< its name and aliases
-    std::vector<std::string> related;
-};
-
-template <class Unit>
-void add_entries(std::vector<Entry>& all, const char* kind, const std::vector<Unit>& units) {
-    for (const Unit& unit : units) {
-        Entry entry{.kind = kind, .name = unit.name, .names = {unit.name}, .related = unit.related};
-        if constexpr (requires { unit.aliases; })
-            entry.names.insert(entry.names.end(), unit.aliases.begin(), unit.aliases.end());
-        all.push_back(std::move(entry));
-    }
-}
-
-std::vector<Entry> all_entries() {
-    std::vector<Entry> all;
-    add_entries(all, "generator", generators::all());
-    add_entries(all, "warp", warps::all());
-    add_entries(all, "scramble", scrambles::all());
-    add_entries(all, "analyzer", analyzers::all());
-    return all;
-}
-
-/// Names of the units that list the word as related.
-std::vector<std::string> related_units(std::span<const Entry> entries, std::string_view word) {
-    std::vector<std::string> units;
-    for (const Entry& entry : entries)
-        if (std::ranges::count(entry.related, word) > 0) units.push_back(entry.name);
-    return units;
+/// Calls visit(kind, unit) for all units.
+template <class Visit>
+void for_each_unit(const Visit& visit) {
+    for (const Generator& unit : generators::all()) visit("generator", unit);
+    for (const Warp& unit : warps::all()) visit("warp", unit);
+    for (const Scramble& unit : scrambles::all()) visit("scramble", unit);
+    for (const Analyzer& unit : analyzers::all()) visit("analyzer", unit);
 }
 
 /// Names that are nearest to a word, at most one for each unit.
-std::vector<std::string> near_names(std::span<const Entry> entries, std::string_view word) {
-    std::map<std::string, std::string> unit_of;
-    for (const Entry& entry : entries)
-        for (const std::string& name : entry.names) unit_of.emplace(name, entry.name);
+/// @param unit_of the units' names by names and aliases
+std::vector<std::string> near_names(const std::map<std::string, std::string>& unit_of,
+                                    std::string_view word) {
     std::vector<std::string> all;
     for (const auto& [name, unit] : unit_of) all.push_back(name);
     std::vector<std::string> near = nearest_words(word, all);
@@ -90,24 +62,28 @@ std::vector<std::string> near_names(std::span<const Entry> entries, std::string_
 }  // namespace
 
 void refuse_unit(std::string_view kind, std::string_view name) {
-    std::vector<Entry> entries = all_entries();
     std::string word = lower_case(name);
     std::ranges::replace(word, '_', '-');
-    for (const Entry& entry : entries)
-        if (entry.kind != kind && std::ranges::count(entry.names, word) > 0)
-            fail_with_hint(ErrorKind::usage,
-                           fmt::format("'{}' is the name of a{} {}", word,
-                                       entry.kind == "analyzer" ? "n" : "", entry.kind),
-                           "unknown {} '{}'", kind, name);
-    std::erase_if(entries, [&](const Entry& entry) {
-        return entry.kind != kind && !(kind == "warp" && entry.kind == "scramble");
+    std::vector<std::string> related;            // units that list the word as related
+    std::map<std::string, std::string> unit_of;  // units by their names and aliases
+    for_each_unit([&](std::string_view own, const auto& unit) {
+        if (own != kind && is_called(unit, word))
+            fail_with_hint(
+                ErrorKind::usage,
+                fmt::format("'{}' is the name of a{} {}", word, own == "analyzer" ? "n" : "", own),
+                "unknown {} '{}'", kind, name);
+        if (own != kind && !(kind == "warp" && own == "scramble")) return;
+        if (std::ranges::count(unit.related, word) > 0) related.push_back(unit.name);
+        unit_of.emplace(unit.name, unit.name);
+        if constexpr (requires { unit.aliases; })
+            for (const std::string& alias : unit.aliases) unit_of.emplace(alias, unit.name);
     });
-    if (const auto units = related_units(entries, word); !units.empty())
+    if (!related.empty())
         fail_with_hint(ErrorKind::usage,
-                       fmt::format("nearest {} {}", units.size() == 1 ? "is" : "are",
-                                   quoted_list(units, "and")),
+                       fmt::format("nearest {} {}", related.size() == 1 ? "is" : "are",
+                                   quoted_list(related, "and")),
                        "there is no {} '{}'", kind, name);
-    const auto near = near_names(entries, word);
+    const auto near = near_names(unit_of, word);
     fail_with_hint(ErrorKind::usage,
                    near.empty() ? fmt::format("'stipple list {}s' names them", kind)
                                 : fmt::format("did you mean {}?", quoted_list(near, "or")),
