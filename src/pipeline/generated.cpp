@@ -96,24 +96,18 @@ void take_levels(const WarpChain& chain, Values& options) {
         options.put(levels_of_factors, std::move(levels));
 }
 
-/// Runs from a file, and their preimages in the unit cube.
-struct EarlierRuns {
-    PointSet runs;
-    PointSet cube;
-};
-
-/// Reads the runs to extend. Runs with the same discrete outcome get different preimages, spread
-/// evenly over the interval of the outcome.
+/// Preimages of the runs to extend in the unit cube. Runs with the same discrete outcome get
+/// different preimages, spread evenly over the interval of the outcome.
 /// @throws Error(input) for missing columns, and for points outside the parameters' domain
-EarlierRuns earlier_runs(const Values& options, const WarpChain& chain, const RunContext& run) {
+PointSet preimages_of_runs(const Values& options, const WarpChain& chain, const RunContext& run) {
     const RunContext quiet = silent(run);
-    PointSet runs = read_runs(options, chain, quiet);
+    const PointSet runs = read_runs(options, chain, quiet);
     try {
         PointSet cube(chain.mapped(runs.flat(), true, 0, quiet), chain.dimension_in());
         spread(cube, chain.outcome_axes());
         if (chain.mapped(cube.flat(), false, 0, quiet).size() != runs.flat().size())
             fail(ErrorKind::input, "a point breaks the constraints");
-        return {std::move(runs), std::move(cube)};
+        return cube;
     } catch (const Error& e) {
         throw Error(ErrorKind::input, fmt::format("{}: {}", file_of_runs(options), e.what()),
                     e.hint());
@@ -364,7 +358,7 @@ std::unique_ptr<Sequence> GeneratedSets::new_sequence(Plan plan, std::uint64_t s
             .drops = chain->traits().refills && !chain->traits().needs_whole_set,
             .axes = chain->outcome_axes()};
         if (goes_on_from_runs(asked_.options, *chain))
-            destination.given = earlier_runs(asked_.options, *chain, run).cube;
+            destination.given = preimages_of_runs(asked_.options, *chain, run);
         plan.destination = std::make_shared<Destination>(std::move(destination));
     }
     return generator_.sequence(plan, asked_.options, run);
@@ -405,7 +399,7 @@ PointSet GeneratedSets::raw_points(std::uint64_t set, const Plan& plan,
 
 void GeneratedSets::keep_runs(PointSet& points, const RunContext& run) const {
     if (!goes_on_from_runs(asked_.options, *chain_)) return;
-    const PointSet runs = earlier_runs(asked_.options, *chain_, run).runs;
+    const PointSet runs = read_runs(asked_.options, *chain_, silent(run));
     if (runs.count() <= points.count()) std::ranges::copy(runs.flat(), points.flat().begin());
 }
 
