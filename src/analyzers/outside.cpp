@@ -3,6 +3,9 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/error.hpp"
 
 namespace stipple::analyzers {
@@ -12,6 +15,15 @@ void refuse(const Outside& outside, std::uint64_t total, const Domain& domain, s
                    "{} of {} points are outside the domain {}; the first is point {}: ({})",
                    outside.count, total, domain.title(), outside.first,
                    fmt::join(outside.point, ", "));
+}
+
+void require_finite(const PointSet& points) {
+    const auto flat = points.flat();
+    const auto bad = std::ranges::find_if_not(flat, [](double x) { return std::isfinite(x); });
+    if (bad == flat.end()) return;
+    const auto at = static_cast<std::size_t>(bad - flat.begin());
+    fail(ErrorKind::input, "x{} of point {} is {}, not a finite number",
+         at % points.dimension() + 1, at / points.dimension(), *bad);
 }
 
 std::string outside_hint(const Domain& domain) {

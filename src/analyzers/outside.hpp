@@ -45,6 +45,9 @@ struct Outside {
 [[noreturn]] void refuse(const Outside& outside, std::uint64_t total, const Domain& domain,
                          std::string hint);
 
+/// @throws Error(input) naming the first coordinate that is not finite
+void require_finite(const PointSet& points);
+
 /// Hint for the message about points outside the domain.
 std::string outside_hint(const Domain& domain);
 

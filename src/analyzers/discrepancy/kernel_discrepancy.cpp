@@ -110,17 +110,6 @@ void check_options(const Values& options) {
              "--target, or choose another kernel");
 }
 
-/// @throws Error(input) if a number is not finite
-void require_finite(const PointSet& points, const std::string& file) {
-    const auto flat = points.flat();
-    const auto bad = std::ranges::find_if_not(flat, [](double x) { return std::isfinite(x); });
-    if (bad == flat.end()) return;
-    const auto at = static_cast<std::size_t>(bad - flat.begin());
-    fail(ErrorKind::input, "{}x{} of point {} is {}, not a finite number",
-         file.empty() ? "" : file + ": ", at % points.dimension() + 1, at / points.dimension(),
-         *bad);
-}
-
 /// @throws Error(input) if points are outside their domain
 void require_inside(const PointSet& points) {
     const Domain& domain = *points.domain;
@@ -281,7 +270,7 @@ Report against_file(const PointSet& points, const Values& options, const RunCont
     if (others.count() > max_count)
         fail(ErrorKind::limit, "kernel-discrepancy accepts up to {} points; {} has {}", max_count,
              file, others.count());
-    require_finite(points, "");
+    require_finite(points);
     if (options[kernel] == "periodic") {
         require_cube(points, "the points");
         require_cube(others, file);
@@ -313,7 +302,7 @@ Report against_scores(const PointSet& points, const Values& options, const RunCo
              "--kernel stein requires rows of d coordinates and d scores (grad log p); these have "
              "{} number{}",
              width, width == 1 ? "" : "s");
-    require_finite(points, "");
+    require_finite(points);
     Setting setting{.points = {points.flat(), width}, .dimension = width / 2};
     set_bandwidth(setting, options, 1, "unit");
     const auto found =

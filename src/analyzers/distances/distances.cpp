@@ -48,16 +48,6 @@ void require_squares(const Box& box, Norm norm, const char* too_wide) {
              widest + 1, format_number(box.low[widest]), format_number(box.high[widest]));
 }
 
-/// @throws Error(input) if a coordinate is not finite
-void require_finite(const PointSet& points) {
-    const auto flat = points.flat();
-    const auto bad = std::ranges::find_if_not(flat, [](double x) { return std::isfinite(x); });
-    if (bad == flat.end()) return;
-    const auto at = static_cast<std::size_t>(bad - flat.begin());
-    fail(ErrorKind::input, "x{} of point {} is {}, not a finite number",
-         at % points.dimension() + 1, at / points.dimension(), *bad);
-}
-
 void require_squares(const PointSet& points, Norm norm) {
     require_finite(points);
     require_squares(bounding_box(points.flat(), points.dimension()), norm,
