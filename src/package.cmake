@@ -42,6 +42,11 @@ else()
   string(REGEX REPLACE "^[^*]*[*]+\n|[*]/.*" "" fft_licence "${fft_licence}")
   string(PREPEND fft_licence "So is this binary, which has code of pocketfft in it:\n\n")
 endif()
+if(archives)
+  string(APPEND fft_licence "\n
+The program has libpng and zlib in it. Their licences are in /usr/share/doc/libpng-dev/copyright and
+/usr/share/doc/zlib1g-dev/copyright of Debian systems.")
+endif()
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/copyright @ONLY CONTENT
 "stipple ${PROJECT_VERSION}
 

@@ -80,15 +80,21 @@ void WorkQueue::sort() {
     constexpr double pieces_of_worker = 32;
     grain_ = std::clamp(seconds_left() / (pieces_of_worker * workers_), shortest, longest);
     pieces_left_ = 0;
-    std::vector<double> seconds(work_.size());  // of a cell's piece if above grain_; else 0
+    // In the beginning n d, for the same sets of all generators; then the seconds of a cell's piece
+    // if they are above grain_, else 0.
+    std::vector<double> sizes(work_.size());
     for (const std::uint64_t cell : cells_) {
         const Piece piece = piece_of(cell);
         const std::uint64_t units = sweep_.units_per_cell() - work_[cell].pulled;
         pieces_left_ += (units + piece.units - 1) / piece.units;
-        seconds[cell] = piece.seconds > 1.001 * grain_ ? piece.seconds : 0;
+        const Cell set = sweep_.cell(cell);
+        if (early_ > 0)
+            sizes[cell] = static_cast<double>(set.count) * static_cast<double>(set.dimension);
+        else if (piece.seconds > 1.001 * grain_)
+            sizes[cell] = piece.seconds;
     }
     std::ranges::sort(cells_, [&](std::uint64_t a, std::uint64_t b) {
-        return seconds[a] != seconds[b] ? (seconds[a] < seconds[b]) == (early_ <= 0) : a > b;
+        return sizes[a] != sizes[b] ? (sizes[a] < sizes[b]) == (early_ <= 0) : a > b;
     });
 }
 

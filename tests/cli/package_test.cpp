@@ -66,7 +66,7 @@ TEST(Package, OfDebianAndAsArchiveAreWholeAndRun) {
         EXPECT_TRUE(box.exists("deb/usr/share/doc/" + package + "/copyright")) << package;
         return good(box.shell("dpkg-deb --field made/" + package + "_*.deb Depends"));
     };
-    for (const char* library : {"libc6", "libfmt", "libtbb", "libpng"})
+    for (const char* library : {"libc6", "libfmt", "libtbb", "libzstd"})
         EXPECT_THAT(depends("stipple"), HasSubstr(library));
     for (const char* needed : {"libfmt-dev", "libtbb-dev", "libpng-dev"})
         EXPECT_THAT(depends("libstipple-dev"), HasSubstr(needed));
