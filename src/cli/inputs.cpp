@@ -259,22 +259,6 @@ void require_width(const PointSet& points, const std::string& input = {}) {
                  format_number(box.low[k]), format_number(box.high[k]));
 }
 
-/// Checks points for an analyzer of the unit cube: even points in the cube may be a sample of
-/// another domain. @throws Error(input) if the set has another domain
-PointSet of_the_cube(PointSet points, const Analyzer& analyzer) {
-    const std::string domain = points.domain->spec();
-    const auto outside = [](double x) { return !(x >= 0 && x <= 1); };
-    if (!analyzer.traits.unit_cube || domain == "unit-cube" ||
-        (domain.starts_with("box") &&
-         points.domain->bounding_box() == unit_cube(points.dimension())->bounding_box()) ||
-        std::ranges::any_of(points.flat(), outside))  // reported later, with the first such point
-        return points;
-    fail_with_hint(ErrorKind::input,
-                   way_to_cube(points) + "; --domain unit-cube takes them as they are",
-                   "{} requires points of the unit cube; the domain of these is {}", analyzer.name,
-                   points.domain->title());
-}
-
 PointSet rescaled(PointSet points) {
     const Bounds around{box_around(points), true};
     return around.taken(std::move(points));
@@ -306,7 +290,8 @@ PointSet prepared(PointSet points, const Analyzer& analyzer, const Sources& from
         require_width(points);
         return rescaled(std::move(points));
     }
-    return of_the_cube(std::move(points), analyzer);
+    require_cube_domain(points, analyzer);
+    return points;
 }
 
 Arrival arrival_of(const io::PointStream& stream, bool weighted, const Analyzer& analyzer,

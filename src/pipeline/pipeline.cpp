@@ -90,6 +90,20 @@ void require_unit_cube(const PointSet& points) {
                     "the measure is defined for the unit cube; " + way_to_cube(points));
 }
 
+void require_cube_domain(const PointSet& points, const Analyzer& analyzer) {
+    const std::string domain = points.domain->spec();
+    const auto outside = [](double x) { return !(x >= 0 && x <= 1); };
+    if (!analyzer.traits.unit_cube || domain == "unit-cube" ||
+        (domain.starts_with("box") &&
+         points.domain->bounding_box() == unit_cube(points.dimension())->bounding_box()) ||
+        std::ranges::any_of(points.flat(), outside))  // reported later, with the first such point
+        return;
+    fail_with_hint(ErrorKind::input,
+                   way_to_cube(points) + "; --domain unit-cube takes them as they are",
+                   "{} requires points of the unit cube; the domain of these is {}", analyzer.name,
+                   points.domain->title());
+}
+
 Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& options,
                const RunContext& run) {
     if (points.count() == 0)
@@ -98,6 +112,7 @@ Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& o
     if (points.domain->dimension() != points.dimension())
         fail(ErrorKind::input, "points of the domain {} have dimension {}; these have {}",
              points.domain->title(), points.domain->dimension(), points.dimension());
+    require_cube_domain(points, analyzer);
     if (analyzer.traits.unit_cube) require_unit_cube(points);
     if (analyzer.traits.densities && points.densities.empty()) {
         if (auto densities = biased_densities(points, run); !densities.empty()) {

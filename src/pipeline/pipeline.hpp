@@ -40,8 +40,12 @@ void require_in_cube(const PointSet& points, std::span<const std::size_t> coordi
 /// Calls require_in_cube() for all coordinates, with way_to_cube() as the hint.
 void require_unit_cube(const PointSet& points);
 
+/// Checks the domain of points for an analyzer of the unit cube: even points in the cube may be a
+/// sample of another domain. @throws Error(input)
+void require_cube_domain(const PointSet& points, const Analyzer& analyzer);
+
 /// Analyzes a set. First checks that the analyzer accepts the dimension and, if it is one for the
-/// unit cube, that all points are in the closed cube.
+/// unit cube, that this is the domain, and that all points are in the closed cube.
 /// @throws Error(input)
 Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& options,
                const RunContext& run);

@@ -29,6 +29,7 @@ std::vector<StudyValue> study(const Study& wanted, const RunContext& run) try {
                        .warps = wanted.warps,
                        .keys = wanted.keys,
                        .seconds = false});
+    run.need_memory(static_cast<double>(sweep.units()) * sizeof(StudyValue), "the study's table");
     const UnitRunner runner(sweep, run);
     runner.require_options(run);
     std::vector<StudyValue> values;

@@ -119,6 +119,24 @@ TEST(Api, LackOfMemoryIsALimit) {
     }
 }
 
+// Points of a triangle lie in the square, whose discrepancy they have not.
+TEST(Api, WhatIsDefinedForTheCubeRefusesOtherDomains) {
+    const PointSet cube = generate("halton", {.count = 50, .dimension = 2, .start = 1});
+    const PointSet triangle = warp("triangle", cube);
+    for (const std::string analyzer : {"star-discrepancy", "l2-discrepancy", "dispersion"}) {
+        EXPECT_NO_THROW(analyze(analyzer, cube)) << analyzer;
+        try {
+            analyze(analyzer, triangle);
+            ADD_FAILURE() << analyzer;
+        } catch (const Error& e) {
+            EXPECT_EQ(e.kind(), ErrorKind::input);
+            EXPECT_EQ(
+                e.what(),
+                analyzer + " requires points of the unit cube; the domain of these is triangle");
+        }
+    }
+}
+
 TEST(Api, AWarpGoesThereAndBack) {
     const PointSet cube = generate("halton", {.count = 50, .dimension = 2, .start = 1});
     const PointSet disk = warp("disk:radius=2", cube);

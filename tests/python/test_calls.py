@@ -646,3 +646,24 @@ def test_arrays_of_numpy_are_counts_and_contents_of_parameters():
     given = {"parameters": [entry | {"range": np.array([2, 3])}, {"name": "k", "integers": [np.int64(1), 4]}]}
     plain = {"parameters": [entry, {"name": "k", "integers": [1, 4]}]}
     assert np.array_equal(*(stipple.generate("sobol", 8, parameters=one) for one in (given, plain)))
+
+
+def test_what_is_measured_is_on_the_domain_that_is_named():
+    triangle = stipple.generate("random", n=64, warp="triangle", return_meta=True)
+    for analyzer in ("star-discrepancy", "l2-discrepancy", "t-value"):
+        with pytest.raises(stipple.Error, match="requires points of the unit cube"):
+            stipple.analyze(analyzer, triangle)
+        stipple.analyze(analyzer, np.asarray(triangle))
+    with pytest.raises(stipple.Error, match="requires points of the unit cube"):
+        stipple.analyze("star-discrepancy", np.asarray(triangle), domain="disk")
+
+
+@pytest.mark.parametrize("name,value", [("bounds", (0, 2)), ("sets", 3), ("as_frame", True), ("return_meta", True)])
+def test_integrate_takes_no_arguments_that_would_change_its_domain(name, value):
+    with pytest.raises(stipple.Error, match=name):
+        stipple.integrate(lambda x: np.ones(len(x)), "random", 16, 2, **{name: value})
+
+
+def test_studies_beyond_the_memory_are_refused():
+    with pytest.raises(stipple.Error, match="memory"):
+        stipple.study("random", "star-discrepancy", n=4, seeds=10**9)

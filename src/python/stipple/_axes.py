@@ -18,6 +18,9 @@ def axes_of(ax: Any) -> list[Any]:
     found = [ax] if single else list(np.ravel(np.asarray(ax, dtype=object)))
     if not found or not all(hasattr(one, "scatter") for one in found):
         raise Error(f"ax is {shown(ax)}; expected axes of Matplotlib, or a list of them")
+    for one in found:
+        if getattr(one, "name", "") in ("polar", "3d"):
+            raise Error(f"ax is {shown(one)}; expected axes with x and y")
     return found
 
 

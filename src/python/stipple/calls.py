@@ -409,6 +409,9 @@ def integrate(function: Callable[[Floats], ArrayLike], generator: Unit, n: int, 
         refuse("function", function, "a function of an array of points")
     if whole("replications", replications, 0) < 2:
         raise Error("replications: an error needs two or more")
+    for name in options:
+        if name != "start" and name in generate.__kwdefaults__:
+            raise Error(f"integrate() has no argument {name!r}; a warp moves the points to another domain")
     spec = spec_text("generator", generator)
     mapping = None if warp is None else spec_text("warp", warp)
     plain = flag("mean", mean) or mapping is None
