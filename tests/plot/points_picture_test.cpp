@@ -16,6 +16,7 @@
 #include "plot/drawing/dot_matrix.hpp"
 #include "plot/drawing/letters.hpp"
 #include "plot/text_picture.hpp"
+#include "stipple/warp.hpp"
 #include "support/units.hpp"
 
 namespace stipple::testing::points_picture_test {
@@ -220,6 +221,35 @@ TEST(PointsPicture, LogarithmicAxesAreEvenInPowers) {
     EXPECT_TRUE(is_space(space));
     space.log = {true, false, false};
     EXPECT_EQ(marks_of(draw_points(space, {}, {})).size(), 9U);
+}
+
+// Each whole number has a bar or, if there are many, each bar has equally many; the density is that
+// of the numbers.
+TEST(PointsPicture, HistogramBarsOfWholeNumbersHoldEquallyMany) {
+    const auto bars_of = [](const char* domain, int low, int numbers, std::size_t n) {
+        PointSet points(n, 1);
+        for (std::size_t i = 0; i < n; ++i)
+            points[i][0] = low + static_cast<int>(i % static_cast<std::size_t>(numbers));
+        points.domain = domain_named(domain, 1);
+        return histogram_chart(picture_of({&points})).panels.at(0).bars.at(0);
+    };
+    for (const char* domain : {"integers:low=3,high=12", "unit-cube"}) {
+        const Bars bars = bars_of(domain, 3, 10, 1000);
+        ASSERT_EQ(bars.heights.size(), 10U) << domain;
+        for (std::size_t i = 0; i < 10; ++i) {
+            EXPECT_EQ(bars.edges[i], 2.5 + static_cast<double>(i));
+            EXPECT_NEAR(bars.heights[i], 0.1, 1e-12);
+        }
+        EXPECT_EQ(bars.edges[10], 12.5);
+    }
+    // 52 numbers in bars of 3; the last holds one.
+    const Bars many = bars_of("integers:low=1,high=52", 1, 52, 520);
+    ASSERT_EQ(many.heights.size(), 18U);
+    for (const double height : many.heights) EXPECT_NEAR(height, 1.0 / 52, 1e-12);
+    EXPECT_EQ(many.edges[1] - many.edges[0], 3);
+    EXPECT_EQ(many.edges.back(), 52.5);
+    // The corners of the unit cube are not numbers of a discrete distribution.
+    EXPECT_EQ(bars_of("unit-cube", 0, 2, 100).edges.front(), 0);
 }
 
 TEST(PointsPicture, NoTextLeavesThePicture) {
