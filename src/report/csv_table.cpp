@@ -124,7 +124,8 @@ std::string to_csv(std::span<const Measurement> measurements) {
     for (const Measurement& m : measurements)
         for (Cells& row : MeasurementCells(m).rows()) {
             for (const auto& [name, cell] : row)
-                if (places.try_emplace(name, columns.size()).second) columns.push_back(name);
+                if (places.try_emplace(name, columns.size()).second)
+                    columns.push_back(csv_field(name));
             rows.push_back(std::move(row));
         }
     std::string text = columns.empty() ? "" : join(columns, ",") + "\n";

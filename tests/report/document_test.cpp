@@ -97,6 +97,15 @@ TEST(Document, CsvHasOneRowForAResultWithoutCurves) {
               "unit,\"a,b.csv\",,3,2,unit-cube,0.5,0.25,1,7,1,2,3,4\n");
 }
 
+// Keys may contain names of columns.
+TEST(Document, CsvQuotesTheNamesOfColumns) {
+    Measurement m = sample();
+    m.results = Report().add("length, \"outer\"", 0.5);
+    EXPECT_EQ(to_csv({&m, 1}),
+              "analyzer,source,set,count,dimension,domain,\"length, \"\"outer\"\"\"\n"
+              "unit,\"a,b.csv\",,3,2,unit-cube,0.5\n");
+}
+
 TEST(Document, CsvTablesOfOneReportFollowEachOther) {
     Measurement m = sample();
     m.dimension = 1;
