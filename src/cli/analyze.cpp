@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -46,6 +47,11 @@ std::vector<std::string> result_keys(const Analyzer& analyzer) {
     return keys;
 }
 
+/// Whether `wanted` is the key of a result, or a part of it between dots.
+bool is_part(const std::string& key, const std::string& wanted) {
+    return fmt::format(".{}.", key).find(fmt::format(".{}.", wanted)) != std::string::npos;
+}
+
 /// The results that some of `wanted` name, entirely or by a part between dots; value[0] selects one
 /// number of a list.
 Report picked(const Report& report, const std::vector<std::string>& wanted,
@@ -58,7 +64,7 @@ Report picked(const Report& report, const std::vector<std::string>& wanted,
             continue;
         }
         for (const std::string& word : wanted) {
-            if (!names_result(group + name, word)) continue;
+            if (!is_part(group + name, word.substr(0, word.find('[')))) continue;
             const auto list = list_at(report, name);
             const auto open = word.find('[');
             if (!list || open == std::string::npos) {
@@ -384,6 +390,22 @@ class AnalyzeCall {
         keys_[&analysis].push_back(key);
     }
 
+    /// Checks keys that only a word in capitals, such as OUTPUT, allowed before the results were
+    /// known. @throws Error(usage)
+    void require_keys() const {
+        for (const auto& [analysis, keys] : keys_)
+            for (const std::string& text : keys) {
+                const std::string key = text.substr(0, text.find('['));
+                std::vector<std::string> known = result_keys(analysis->analyzer());
+                for (const auto& [m, of] : in_order())
+                    if (of == analysis)
+                        std::ranges::move(m->results.keys(), std::back_inserter(known));
+                if (std::ranges::none_of(known, [&](const auto& k) { return is_part(k, key); }))
+                    fail_with_hint(ErrorKind::usage, suggest(key, known),
+                                   "--keys: {} has no result '{}'", analysis->analyzer().name, key);
+            }
+    }
+
     static std::string without_name(const std::string& key, const Analyzer& analyzer) {
         if (find_result(analyzer, key)) return key;
         if (key == analyzer.name) return "value";
@@ -488,6 +510,7 @@ class AnalyzeCall {
     }
 
     void print() {
+        require_keys();
         std::vector<Measurement> all;
         for (const auto& [measurement, analysis] : in_order()) {
             Measurement& m = all.emplace_back(std::move(*measurement));

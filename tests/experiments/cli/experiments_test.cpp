@@ -56,6 +56,21 @@ TEST(Experiments, SensitivityTakesOutputsBesideADesign) {
                    "an empty field; expected a number");
 }
 
+// Keys of the results contain names of columns, so that unknown keys are refused only after the
+// analysis. A name in capitals is no wildcard.
+TEST(Experiments, SensitivityRefusesUnknownKeys) {
+    const Sandbox box;
+    good(
+        box.shell("stipple generate sobol -n 64 -d 2 | awk 'NR == 1 {print \"x,y,LOAD\"; next} "
+                  "{split($0, u, \",\"); print $0 \",\" u[1] + u[2]}' > runs.csv"));
+    const std::string analyze = "stipple analyze sensitivity runs.csv -f csv --keys ";
+    for (const char* key : {"nonsense", "LOAD.z.first", "first,nonsense"})
+        expect_refusal(box.shell(analyze + key), 2, "--keys: sensitivity has no result '");
+    for (const char* key : {"LOAD.x.first", "x.first", "x", "LOAD"})
+        EXPECT_THAT(good(box.shell(analyze + key)), HasSubstr(",LOAD.x.first")) << key;
+    EXPECT_THAT(good(box.shell(analyze + "x.first")), Not(HasSubstr("LOAD.y")));
+}
+
 // One design as a table with its parameter file, with provenance lines and an added column, and in
 // two files; --bounds are those of the inputs.
 TEST(Experiments, SensitivityKnowsTheInputsFromParametersAndProvenance) {
