@@ -212,9 +212,7 @@ class Plot {
         const std::string bytes = io::read_bytes(input, run);
         if (request_.from.empty())
             if (auto means = read_means(bytes, io::source_name(input), run)) {
-                std::error_code none;
-                if (input != "-" && std::filesystem::exists(journal_of(input), none))
-                    session_.warn(fmt::format("{}: the study is not finished", input));
+                note_unfinished(input, run);
                 add_study(*std::move(means), input);
                 return;
             }

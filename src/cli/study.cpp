@@ -137,6 +137,7 @@ std::optional<std::vector<MeanRow>> means_of_input(const StudyRequest& request,
                    "does not apply to the table of a study");
     auto means = read_means(io::read_bytes(path, run), io::source_name(path), run);
     if (!means) fail(ErrorKind::input, "{}: is not the table of a study", path);
+    note_unfinished(path, run);
     return means;
 }
 

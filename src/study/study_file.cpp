@@ -100,6 +100,9 @@ class Lines {
     std::ifstream in_;
 };
 
+/// Path of the journal of a table.
+std::string journal_of(const std::string& table) { return real_file(table) + ".journal"; }
+
 /// Returns the first line of a table's journal; null if it is missing or is not that of a journal.
 Json head_of_journal(const std::string& table) {
     std::string line;
@@ -112,7 +115,11 @@ Json head_of_journal(const std::string& table) {
 
 }  // namespace
 
-std::string journal_of(const std::string& table) { return real_file(table) + ".journal"; }
+void note_unfinished(const std::string& table, const RunContext& run) {
+    std::error_code none;
+    if (table != "-" && std::filesystem::exists(journal_of(table), none))
+        run.notify(fmt::format("{}: the study is not finished", table));
+}
 
 /// Reads the table of a study that is resumed, and stores the positions of its units.
 class StudyFile::TableReader {

@@ -34,8 +34,8 @@
 
 namespace stipple {
 
-/// Path of the journal of a table, a file that exists until the study is finished.
-std::string journal_of(const std::string& table);
+/// Notifies if a table's journal exists, a file that is removed when the study is finished.
+void note_unfinished(const std::string& table, const RunContext& run);
 
 /// Summary of the units that failed.
 struct StudyFailures {

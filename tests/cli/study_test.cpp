@@ -576,6 +576,20 @@ TEST(Study, ResumeCompletesAFinishedTableThatWasCut) {
     }
 }
 
+TEST(Study, WideTablesOfUnfinishedStudiesHaveANote) {
+    const Sandbox box;
+    good(box.shell("stipple study --generators random -n 16,32 --analyze moments -o s.csv"));
+    for (const bool unfinished : {false, true}) {
+        if (unfinished) box.write("s.csv.journal", "");
+        for (const char* options : {"--wide", "--wide -f latex"}) {
+            const Outcome outcome = box.shell(std::string("stipple study s.csv ") + options);
+            EXPECT_EQ(outcome.code, 0);
+            EXPECT_EQ(outcome.err,
+                      unfinished ? "stipple: note: s.csv: the study is not finished\n" : "");
+        }
+    }
+}
+
 // A measure that rejects sets of few points may accept more.
 TEST(Study, OptionsThatFitSomeSetsAreNoReasonToRefuseTheStudy) {
     const Sandbox box;
