@@ -57,6 +57,32 @@ bool is_word(const std::string& text) {
            read_number(text.data(), last, number) != last;
 }
 
+std::optional<std::vector<std::string>> csv_fields(std::string_view line) {
+    std::vector<std::string> fields(1);
+    bool quoted = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const char c = line[i];
+        if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
+            fields.back() += c;
+            ++i;
+        } else if (c == '"' && (quoted || trim(fields.back()).empty())) {
+            quoted = !quoted;
+        } else if (c == ',' && !quoted) {
+            fields.emplace_back();
+        } else {
+            fields.back() += c;
+        }
+    }
+    return quoted ? std::nullopt : std::optional(fields);
+}
+
+std::vector<std::string> parse_names(std::string_view text, std::string_view option) {
+    auto names = csv_fields(text);
+    if (!names) fail(ErrorKind::usage, "--{}: a quote is not closed in '{}'", option, text);
+    for (std::string& name : *names) name = trim(name);
+    return *names;
+}
+
 std::size_t find_column(const std::string& wanted, const std::vector<std::string>& names,
                         const std::string& place, const char* option) {
     const auto it = std::ranges::find(names, wanted);

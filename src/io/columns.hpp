@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/point_set.hpp"
@@ -41,6 +43,12 @@ std::vector<std::string> kept_names(std::vector<std::string> names, bool table =
 
 /// Whether a text can be a level name: not a number, and unchanged by writing and reading.
 bool is_word(const std::string& text);
+
+/// Fields of a line of CSV; nullopt if a quote is not closed.
+std::optional<std::vector<std::string>> csv_fields(std::string_view line);
+
+/// Parses the names in an option's text, a line of CSV. @throws Error(usage)
+std::vector<std::string> parse_names(std::string_view text, std::string_view option);
 
 /// Index of the column with this name or, failing that, with this number counted from 1. `place`
 /// and `option` are for the message. @throws Error(usage) if no column matches

@@ -5,6 +5,7 @@
 
 #include "core/json.hpp"
 #include "core/text.hpp"
+#include "io/columns.hpp"
 
 namespace stipple {
 namespace {
@@ -43,25 +44,6 @@ std::optional<std::vector<std::string>> json_fields(std::string_view line,
 
 }  // namespace
 
-std::optional<std::vector<std::string>> csv_fields(std::string_view line) {
-    std::vector<std::string> fields(1);
-    bool quoted = false;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        const char c = line[i];
-        if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
-            fields.back() += c;
-            ++i;
-        } else if (c == '"' && (quoted || trim(fields.back()).empty())) {
-            quoted = !quoted;
-        } else if (c == ',' && !quoted) {
-            fields.emplace_back();
-        } else {
-            fields.back() += c;
-        }
-    }
-    return quoted ? std::nullopt : std::optional(fields);
-}
-
 std::string csv_field(std::string_view text) {
     if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
     std::string quoted(text);
@@ -91,7 +73,7 @@ std::string table_line(TableStyle style, std::span<const TableCell> cells) {
 
 std::optional<std::vector<std::string>> parse_table_line(TableStyle style, std::string_view line,
                                                          std::span<const TableCell> columns) {
-    auto fields = style == TableStyle::csv ? csv_fields(line) : json_fields(line, columns);
+    auto fields = style == TableStyle::csv ? io::csv_fields(line) : json_fields(line, columns);
     return fields && fields->size() == columns.size() ? std::move(fields) : std::nullopt;
 }
 

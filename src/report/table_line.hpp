@@ -24,9 +24,6 @@ struct TableCell {
 /// A CSV field, quoted if necessary.
 std::string csv_field(std::string_view text);
 
-/// Fields of a line of CSV; nullopt if a quote is not closed.
-std::optional<std::vector<std::string>> csv_fields(std::string_view line);
-
 /// The header line; empty for JSON.
 std::string table_head(TableStyle style, std::span<const TableCell> cells);
 

@@ -192,6 +192,15 @@ def test_sentences_name_argument_value_and_expectation():
         assert str(caught.value) == sentence
 
 
+def test_lists_of_names_are_not_split_at_commas_of_names():
+    columns = {"length, outer": np.linspace(0, 1, 8), "b": np.zeros(8), 'y, "1"': np.arange(8.0)}
+    table = stipple.Points(np.column_stack(list(columns.values())), meta={"columns": list(columns)})
+    report = stipple.analyze("sensitivity", table, inputs=["length, outer"], response=['y, "1"'],
+                             method="rank")
+    assert list(report) == ['y, "1"']
+    assert "length, outer" in report['y, "1"']
+
+
 def test_numbers_of_numpy_are_numbers():
     same = stipple.generate("halton", 8, 2, seed=3)
     for n in (np.int8(8), np.uint64(8), np.array(8)):

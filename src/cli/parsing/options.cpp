@@ -12,6 +12,7 @@
 #include "cli/parsing/requests.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "io/columns.hpp"
 #include "io/files.hpp"
 #include "pipeline/units.hpp"
 #include "study/study_config.hpp"
@@ -102,10 +103,8 @@ void take(std::vector<std::string>& field, const CommonOption& common, const std
         std::ranges::move(split_specs(text, "--" + common.option.name), std::back_inserter(field));
     else if (common.repeatable)
         field.push_back(text);
-    else if (const auto names = csv_fields(text); !names)
-        fail(ErrorKind::usage, "--{}: a quote is not closed in '{}'", common.option.name, text);
     else if (!text.empty())
-        for (const std::string& name : *names) field.emplace_back(trim(name));
+        std::ranges::move(io::parse_names(text, common.option.name), std::back_inserter(field));
 }
 
 void take(std::vector<Spec>& field, const CommonOption&, const std::string& text) {

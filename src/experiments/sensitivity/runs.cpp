@@ -50,9 +50,9 @@ Numbers all_columns(const PointSet& table) {
 
 Numbers picked_columns(const std::string& wanted, const Columns& from, const char* option) {
     Numbers columns;
-    for (const auto word : split(wanted, ',')) {
-        const auto c = io::find_column(std::string(trim(word)), from.names, from.place, option);
-        if (in(columns, c)) fail(ErrorKind::usage, "--{}: '{}' is given twice", option, trim(word));
+    for (const std::string& name : io::parse_names(wanted, option)) {
+        const auto c = io::find_column(name, from.names, from.place, option);
+        if (in(columns, c)) fail(ErrorKind::usage, "--{}: '{}' is given twice", option, name);
         columns.push_back(c);
     }
     return columns;

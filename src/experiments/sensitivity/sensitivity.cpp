@@ -48,13 +48,15 @@ constexpr Param<Text> inputs{
     {.name = "inputs",
      .unit = "columns",
      .help =
-         "Columns of the inputs, by name or number from 1: x,y; default: those named by provenance "
-         "or --parameters, else all of --design, or all of the table that are not outputs"}};
+         "Columns of the inputs, by name (quoted as in CSV) or number from 1: x,\"a, b\"; default: "
+         "those named by provenance or --parameters, else all of --design, or all of the table "
+         "that are not outputs"}};
 
 constexpr Param<Text> response{
     {.name = "response",
      .unit = "columns",
-     .help = "Columns of the outputs, by name or number from 1: y,z; default: all except inputs "
+     .help = "Columns of the outputs, by name or number as for --inputs: y,z; default: all except "
+             "inputs "
              "and their copies, or the last one if the names of the inputs are not known"}};
 
 constexpr Param<Choice> method{

@@ -27,6 +27,7 @@ Parameters: TypeAlias = Path | Mapping[str, Any] | None
 
 MOST = 2**53  # points, and their indices
 FLAGS = (bool, np.bool_)
+NAMES = ("inputs", "response")  # options whose lists are names of columns, quoted as in CSV
 
 
 def shown(value: object) -> str:
@@ -146,7 +147,10 @@ def _option_text(name: str, value: object, depth: int = 2) -> str:
         return path(name, value)
     if isinstance(value, (list, tuple, range)) and depth:
         rows = any(isinstance(row, (list, tuple, np.ndarray)) for row in value)
-        return (" " if rows else ",").join(_option_text(name, one, depth - 1) for one in value)
+        parts = [_option_text(name, one, depth - 1) for one in value]
+        if name in NAMES:
+            parts = ['"' + part.replace('"', '""') + '"' for part in parts]
+        return (" " if rows else ",").join(parts)
     refuse(name, value, "a number, a text, True or False, or a list of these")
 
 

@@ -126,6 +126,19 @@ TEST(Sensitivity, ProvenanceNamesTheInputs) {
     EXPECT_THAT(refusal(words), HasSubstr("the output state contains words, such as good"));
 }
 
+TEST(Sensitivity, NamesWithCommasAreQuotedAsInCsv) {
+    PointSet table = with_outputs(points_in(make("sobol", points(64, 2))), linear);
+    table.provenance.columns = {"length, outer", "b", "result, y"};
+    const Report report = analyze(
+        unit, table,
+        {{"method", "rank"}, {"inputs", "\"length, outer\", b"}, {"response", "\"result, y\""}});
+    ASSERT_EQ(report.entries().size(), 1U);
+    EXPECT_NE(report.find("result, y.length, outer.first"), nullptr);
+    EXPECT_NE(report.find("result, y.b.first"), nullptr);
+    EXPECT_THAT(refusal(table, {{"response", "\"result, y"}}),
+                HasSubstr("--response: a quote is not closed in '\"result, y'"));
+}
+
 TEST(Sensitivity, WithoutADesignTheLastColumnIsTheOutput) {
     const PointSet table = with_outputs(points_in(make("sobol", points(128, 3))), linear);
     EXPECT_EQ(
