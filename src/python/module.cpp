@@ -52,12 +52,18 @@ namespace {
 
 using Given = std::tuple<Array, std::string, std::string>;  ///< rows, domain, provenance as JSON
 
-/// A set with its previous provenance.
-PointSet set_of(const Given& given) {
+/// A set with its previous provenance. That of a table is the provenance of its inputs.
+PointSet set_of(const Given& given, bool table = false) {
     const auto& [rows, domain, meta] = given;
-    PointSet points = points_of(rows, domain);
-    if (!meta.empty()) points.provenance = io::provenance_from(parse_json(meta));
+    PointSet points = points_of(rows, table ? "unit-cube" : domain);
+    const Json known = meta.empty() ? Json::object() : parse_json(meta);
+    points.provenance = io::provenance_from(known);
     points.provenance.domain = domain;
+    if (table) {
+        points.provenance.columns =
+            io::kept_names(known.value("columns", std::vector<std::string>()), true);
+        return points;
+    }
     points.provenance.count = points.count();
     points.provenance.dimension = points.dimension();
     complete(points.provenance);
@@ -224,7 +230,8 @@ py::array density(const Given& given) {
 /// Returns results, their text, unmet expectations, and the record that report_chart() takes.
 py::tuple analyze(const std::string& text, const Settings& settings, const Given& given,
                   const How& how) {
-    PointSet points = set_of(given);
+    const Analyzer& analyzer = find_analyzer(parse_spec(text).name);
+    PointSet points = set_of(given, analyzer.traits.table);
     Measurement found = {};
     found.source = "points";
     found.count = points.count();
@@ -234,7 +241,7 @@ py::tuple analyze(const std::string& text, const Settings& settings, const Given
     found.results = released(how, [&, points = std::move(points)](const RunContext& run) {
         return stipple::analyze(text, points, settings, run);
     });
-    found.analyzer = find_analyzer(parse_spec(text).name).name;
+    found.analyzer = analyzer.name;
     return py::make_tuple(
         dict_of(found.results), to_text({&found, 1}), found.results.unmet(),
         py::make_tuple(found.analyzer, found.count, found.dimension, found.domain));

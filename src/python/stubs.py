@@ -53,7 +53,7 @@ CALLS = {
     "generators": ("generate", "{}", "generator", MADE.format(""), "Floats"),
     "warps": ("warp", "x: PointsLike, {}", "warp", "*", "Points"),
     "scrambles": ("scramble", "x: PointsLike, {}", "scramble", "*, seed: int = 1, start: int = 0", "Floats"),
-    "analyzers": ("analyze", "{}, x: PointsLike", "analyzer", "*, domain: str | None = None", "Report"),
+    "analyzers": ("analyze", "{}, x: PointsLike", "analyzer", "*, domain: str | None = None, parameters: Parameters = None", "Report"),
 }
 INTEGRAND = "str | Callable[[Floats], ArrayLike]"
 

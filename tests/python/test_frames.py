@@ -162,6 +162,42 @@ def test_tables_of_pandas_know_their_domain():
         stipple.generate("random", 4, sets=2, return_meta=True).to_pandas()
 
 
+# Columns with the names of the parameters are inputs, all others are outputs, as for the program.
+@pytest.mark.parametrize("order", ["amkuw", "wkuam"])
+def test_outputs_are_added_to_tables_of_parameters(order, run, tmp_path):
+    table = stipple.generate("sobol:scramble=owen", 128, parameters=PARAMETERS, as_frame=True)
+    table["u"] = np.exp(3 * table["a"]) * table["k"] + table["m"].cat.codes
+    table["w"] = table["a"].where(table["a"] > 2.1)
+    table = table[[*order]].rename(columns={"w": "weight"})
+    (tmp_path / "p.json").write_text(json.dumps(PARAMETERS))
+    table.to_csv(tmp_path / "t.csv", index=False)
+    out = run("analyze", "sensitivity", tmp_path / "t.csv", "--parameters", tmp_path / "p.json", "--json")
+    right = json.loads(out)["results"]
+    bare = table.assign(m=table["m"].astype(object))
+    bare.attrs = {}
+    file = str(tmp_path / "p.json")
+    for one, told in ((table, {}), (bare, {"parameters": file}), (bare, {"parameters": PARAMETERS}),
+                      (bare, {"domain": f"parameters:file={file}"})):
+        with pytest.warns(stipple.Note, match="weight: .* runs failed"):
+            found = stipple.analyze("sensitivity", one, **told)
+        assert {*found} == {"u", "weight"}
+        assert json.loads(json.dumps(found, default=dict)) == right
+    assert stipple.plot(found).svg
+    with pytest.raises(stipple.Error, match="parameters and domain: give one of them"):
+        stipple.analyze("moments", bare, domain="disk", parameters=PARAMETERS)
+    with pytest.raises(stipple.Error, match="the table has no column k for the inputs"):
+        stipple.analyze("sensitivity", bare.drop(columns="k"), parameters=PARAMETERS)
+
+
+def test_outputs_are_added_to_tables_without_parameters():
+    for domain in ({}, {"bounds": (1, 3)}, {"warp": "disk"}):
+        table = stipple.generate("sobol:scramble=owen", 64, 2, as_frame=True, **domain)
+        table.insert(0, "u", table["x"] ** 2)
+        table["v"] = table["y"]
+        found = stipple.analyze("sensitivity:method=rank", table)
+        assert {*found} == {"u", "v"} and "u" not in found.v and found.v.y.first > found.v.x.first
+
+
 def test_missing_libraries_are_named(monkeypatch):
     for name in ("pandas", "polars"):
         monkeypatch.setitem(sys.modules, name, None)

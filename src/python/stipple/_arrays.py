@@ -162,8 +162,9 @@ def with_meta(array: Floats, meta: Any) -> Points:
     return points
 
 
-def as_rows(x: ArrayLike, name: str = "x", most: int = 2) -> Floats:
-    """Points as an array (n, d) of float64 in C order; with most = 3 also (sets, n, d)."""
+def as_rows(x: ArrayLike, name: str = "x", most: int = 2, gaps: bool = False) -> Floats:
+    """Points as an array (n, d) of float64 in C order; with most = 3 also (sets, n, d), with gaps
+    also NaN."""
     shape = "(n, d)" if most == 2 else "(n, d) or (sets, n, d)"
     if isinstance(x, (str, bytes)) or hasattr(x, "read"):
         refuse(name, x, f"points {shape}", "read() returns the points of a file")
@@ -183,8 +184,9 @@ def as_rows(x: ArrayLike, name: str = "x", most: int = 2) -> Floats:
         raise Error(f"{name} has the shape {array.shape}; there are no points", "input")
     with np.errstate(over="ignore"):
         rows = np.ascontiguousarray(array, dtype=np.float64)
-    if not np.isfinite(rows).all():
-        place = np.argwhere(~np.isfinite(rows))[0]
+    wrong = np.isinf(rows) if gaps else ~np.isfinite(rows)
+    if wrong.any():
+        place = np.argwhere(wrong)[0]
         raise Error(
             f"{name}[{', '.join(map(str, place))}] is {rows[tuple(place)]}; points are finite",
             "input",
@@ -335,3 +337,36 @@ def given(x: Any, name: str = "x", domain: object = None) -> Given:
             meta["domain"] = recorded
         return _with_domain(as_rows(rows, name), meta, domain, name)
     return _with_domain(as_rows(x, name), getattr(x, "meta", None), domain, name)
+
+
+def given_table(x: Any, name: str, domain: object) -> Given:
+    """Rows of a table, with the domain of its inputs: the analyzer finds these by name, as in files."""
+    told = getattr(x, "meta", None)
+    rows, meta = x, {**told} if isinstance(told, dict) else {}
+    if _frames.is_frame(x):
+        rows, meta = _frames.taken(x, name)
+        meta |= _inputs_recorded(x, meta["columns"])
+    rows = as_rows(rows, name, gaps=True)
+    on = text("domain", meta.get("domain") or "unit-cube" if domain is None else domain,
+              'the name of a domain, such as "disk"')
+    named = "parameters" in on
+    inputs, levels = _stipple.names_of_domain(on, rows.shape[1]) if named else ([], {})
+    if inputs and all(inputs):
+        meta["dimension"] = len(inputs)
+    words = meta.get("levels") or {}
+    for k, key in enumerate(meta.get("columns") or []):
+        if key in inputs and key in words and words[key] != levels.get(key):
+            rows = rows.copy()
+            rows[:, k] = _renumbered(rows[:, k], words[key], levels.get(key, []), f"{name}[{key!r}]")
+    meta["levels"] = words | levels
+    return rows, on, json.dumps(meta)
+
+
+def _inputs_recorded(frame: Any, names: list[str]) -> dict[str, Any]:
+    """What a table records of its inputs. Without names, a domain is only that of all its columns."""
+    domain, columns = _frames.recorded(frame) or ("", [])
+    inputs = [key for key in columns if key in names]
+    if inputs != columns and "parameters" not in domain or not inputs:
+        return {}
+    generator = frame.attrs["stipple"].get("generator", "") if inputs == columns else ""
+    return {"domain": _domain_recorded(frame, inputs), "dimension": len(inputs), "generator": generator}

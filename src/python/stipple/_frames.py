@@ -134,9 +134,10 @@ def to_pandas(points: Points) -> Any:
         name: pandas.Categorical.from_codes(numbers.astype(int), words) if words else numbers
         for name, (numbers, words) in columns.items()
     })
-    domain = (points.meta or {}).get("domain")
-    if domain is not None:
-        frame.attrs["stipple"] = {"domain": domain, "columns": list(columns)}
+    meta = points.meta or {}
+    if meta.get("domain") is not None:
+        made = {"generator": meta["generator"]} if meta.get("generator") else {}
+        frame.attrs["stipple"] = {"domain": meta["domain"], "columns": list(columns), **made}
     return frame
 
 

@@ -39,7 +39,7 @@ from ._arguments import (
     whole_or_none,
     wholes,
 )
-from ._arrays import Given, Points, alike, as_rows, given, matched, sets_of, with_meta
+from ._arrays import Given, Points, alike, as_rows, given, given_table, matched, sets_of, with_meta
 from ._errors import Error, Note, in_python
 from ._frames import Frame, is_frame, is_word
 from ._reports import Page, Picture, Report
@@ -313,22 +313,32 @@ def scramble(x: PointsLike, scramble: Unit, *, seed: int = 1, start: int = 0, th
     return found
 
 
-def analyze(analyzer: Unit, x: PointsLike, *, domain: str | None = None,
+def analyze(analyzer: Unit, x: PointsLike, *, domain: str | None = None, parameters: Parameters = None,
             integrand: str | Callable[[Floats], ArrayLike] | None = None, threads: int = 0,
             max_memory: float = 0, progress: Progress = None, **options: Option) -> Report:
     """Results of an analyzer for a set of points: a Report, which is a mapping with attributes.
 
     analyzer   name or spec: "star-discrepancy", "l2-discrepancy:kind=centered"
-    x          points (n, d), or a table; each number is finite
+    x          points (n, d), or a table; each number is finite, but NaN may mark failed runs for the
+               analyzer sensitivity. Its inputs are the columns with the names of the domain's
+               coordinates, and its outputs all others
     domain     the points' domain, as for `stipple analyze --domain`; default: that of their meta, or
                the unit cube
+    parameters a parameter file, or a dictionary with the same content, instead of a domain
     integrand  of the analyzer integration: a name, or a function from an array (n, d) to (n,)
     options    of the analyzer
 
     Raises Error for points outside the domain, and for what the analyzer cannot measure.
     """
     how = run_options(threads, max_memory, progress)
-    spec, one = spec_text("analyzer", analyzer), given(x, domain=domain)
+    spec = spec_text("analyzer", analyzer)
+    if parameters is not None:
+        if domain is not None:
+            raise Error("parameters and domain: give one of them")
+        domain = _parameters_of(parameters)[0]
+    # The command line's only analyzer of tables, whose further columns are no coordinates.
+    is_table = spec.partition(":")[0] == "sensitivity"
+    one = given_table(x, "x", domain) if is_table else given(x, domain=domain)
     if callable(integrand):
         if spec != "integration":
             raise Error(f"integrand: {spec} takes no function; the analyzer integration does")
