@@ -2,6 +2,7 @@
 #include "io/columns.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -83,6 +84,26 @@ std::vector<std::string> parse_names(std::string_view text, std::string_view opt
     return *names;
 }
 
+std::vector<std::string> replace_names(std::vector<std::string>& names) {
+    const auto defaults = coordinate_names(names.size());
+    std::vector<std::string> sentences;
+    for (std::size_t c = 0; c < names.size(); ++c) {
+        if (is_name(names[c], true)) continue;
+        const std::string refused = std::exchange(names[c], "");
+        std::string name = defaults[c];
+        while (std::ranges::find(names, name) != names.end()) name += '_';
+        sentences.push_back(
+            refused.empty()
+                ? fmt::format("a column has no name; it is called {}", name)
+                : fmt::format(
+                      "the column {} is called {}; a name is printable, is no number or 'set', "
+                      "and has no quotation marks nor a leading #, [ or {{",
+                      shown(refused), name));
+        names[c] = std::move(name);
+    }
+    return sentences;
+}
+
 std::size_t find_column(const std::string& wanted, const std::vector<std::string>& names,
                         const std::string& place, const char* option) {
     const auto it = std::ranges::find(names, wanted);
@@ -113,7 +134,9 @@ Columns choose_columns(std::vector<std::string> names, std::size_t width,
         return choose_columns(std::move(names), width, picked, place);
     }
     // Default names (x, y, ...) carry no meaning: columns with such names are taken in order.
-    if (options.columns.empty() && missing != options.expected.end() && !kept_names(names).empty())
+    auto kept = names;
+    replace_names(kept);
+    if (options.columns.empty() && missing != options.expected.end() && !kept_names(kept).empty())
         fail_with_hint(ErrorKind::input, suggest(*missing, names), "{}: there is no column '{}'",
                        place, *missing);
     Columns columns{.role = std::vector<std::size_t>(width, Columns::skipped)};

@@ -50,6 +50,10 @@ std::optional<std::vector<std::string>> csv_fields(std::string_view line);
 /// Parses the names in an option's text, a line of CSV. @throws Error(usage)
 std::vector<std::string> parse_names(std::string_view text, std::string_view option);
 
+/// Replaces names that kept_names() cannot keep, even of a table, by the default name of the column.
+/// Returns a sentence for each.
+std::vector<std::string> replace_names(std::vector<std::string>& names);
+
 /// Index of the column with this name or, failing that, with this number counted from 1. `place`
 /// and `option` are for the message. @throws Error(usage) if no column matches
 std::size_t find_column(const std::string& wanted, const std::vector<std::string>& names,

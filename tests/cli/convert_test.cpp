@@ -6,7 +6,9 @@
 
 namespace stipple::testing::convert_test {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 // Shortest digits and float64 binaries lose nothing, so converting through all formats gives the
 // original.
@@ -48,6 +50,38 @@ TEST(Convert, SaysThatItLeavesRowNamesOut) {
         EXPECT_EQ(outcome.out, "x,y\n0.5,0.25\n0.125,0\n");
         EXPECT_THAT(outcome.err,
                     HasSubstr("the first column has no name; it is read as row names"));
+    }
+}
+
+TEST(Convert, SaysWhichNamesItReplaces) {
+    const Sandbox box;
+    const auto converted = [&](const std::string& header) {
+        box.write("r.csv", header + "\n1,2,3\n4,5,6\n");
+        const Outcome outcome = box.shell("stipple convert r.csv -f csv");
+        EXPECT_EQ(box.shell("cat r.csv | stipple convert -f csv").out, outcome.out);
+        return outcome.out.substr(0, outcome.out.find('\n')) + "; " + outcome.err;
+    };
+    EXPECT_THAT(
+        converted("a,\"b \"\"q\"\"\",c"),
+        AllOf(StartsWith("a,y,c; stipple: note: r.csv: the column 'b \"\"q\"\"' is called y"),
+              HasSubstr("a name is printable, is no number or 'set', and has no quotation")));
+    EXPECT_EQ(converted("a,,c"),
+              "a,y,c; stipple: note: r.csv: a column has no name; it is called y\n");
+    EXPECT_THAT(converted("y,[m],set"),
+                AllOf(StartsWith("y,y_,z; "), HasSubstr("'[m]' is called y_"),
+                      HasSubstr("'set' is called z")));
+}
+
+TEST(Convert, ReadsLevelsThatLookLikeNumbers) {
+    const Sandbox box;
+    box.write(
+        "p.json",
+        R"({"parameters":[{"name":"a","range":[0,1]},{"name":"m","levels":["1,5","nan","NA"]}]})");
+    for (const char* format : {"csv", "tsv"}) {
+        const std::string file = std::string("t.") + format;
+        good(box.run({"generate", "sobol", "-n", "8", "--parameters", "p.json", "-o", file}));
+        good(box.run({"convert", file, "--parameters", "p.json", "-o", "back.csv"}));
+        EXPECT_THAT(box.read("back.csv"), StartsWith("a,m\n0,\"1,5\"\n0.5,nan\n"));
     }
 }
 

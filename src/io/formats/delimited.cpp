@@ -510,8 +510,12 @@ struct TableHead {
     std::string measure = {};    ///< name of the column pdf or weight if others are named
     const char* body = nullptr;  ///< start of the rows
     bool words_to_find = false;  ///< the first row has words that are not known levels
+    /// Sentences on replaced names.
+    std::vector<std::string> replaced = {};
 
     void tell_row_names(const std::string& source, const RunContext& run) const {
+        for (const std::string& sentence : replaced)
+            run.notify(fmt::format("{}: {}", source_name(source), sentence));
         if (row_names)
             run.notify(
                 fmt::format("{}: the first column has no name; it is read as row names and left "
@@ -556,12 +560,17 @@ bool counts_rows(const SourceText& text, const char* body, char separator) {
     return counts && rows >= few && (first == 0 || first == 1);
 }
 
-/// Whether the first fractional number has a decimal comma.
-bool has_decimal_comma(const SourceText& text, const char* body, char separator) {
+/// Whether the first fractional number has a decimal comma. Levels, such as 1,5, are not numbers.
+bool has_decimal_comma(const SourceText& text, const TableHead& head) {
     bool comma = false;
+    const char separator = head.dialect.separator;
+    const auto& words = head.columns.words;
     if (separator == ',' || separator == ' ') return comma;
-    look_at_rows(text, body, separator, [&](const std::vector<Field>& fields) {
-        for (const Field& field : fields) {
+    look_at_rows(text, head.body, separator, [&](const std::vector<Field>& fields) {
+        for (std::size_t c = 0; c < std::min(fields.size(), head.columns.width()); ++c) {
+            const Field& field = fields[c];
+            const std::size_t role = head.columns.role[c];
+            if (role < words.size() && !words[role].empty()) continue;
             comma = !with_point(field.text).empty();
             if (comma || (is_number(field.text) && field.text.find('.') != std::string_view::npos))
                 return false;
@@ -664,10 +673,11 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
     head.columns = choose_columns(names, fields.size(), options,
                                   fmt::format("{}:{}", text.source(), head.dialect.model_line));
     head.top.provenance.density_column = head.columns.density;
+    if (!options.all_columns) head.replaced = replace_names(head.columns.names);
     head.top.provenance.columns = kept_names(head.columns.names, options.gaps);
     head.body = head.names ? head.top.next : head.top.first;
-    head.dialect.comma = has_decimal_comma(text, head.body, head.dialect.separator);
     if (head.names) take_words(head, text);
+    head.dialect.comma = has_decimal_comma(text, head);
     if (head.names && !head.row_names && fields.size() > 1 && options.columns.empty() &&
         !options.all_columns && names[0] != "set" &&
         counts_rows(text, head.body, head.dialect.separator))
