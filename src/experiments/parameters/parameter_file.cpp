@@ -16,6 +16,7 @@
 #include "core/json.hpp"
 #include "core/text.hpp"
 #include "experiments/parameters/linear_correlation.hpp"
+#include "io/columns.hpp"
 #include "io/files.hpp"
 #include "math/distributions/families.hpp"
 #include "math/distributions/outcomes.hpp"
@@ -143,6 +144,9 @@ class ParameterReader {
         std::string name = at.text("expected a name, such as \"length\"");
         if (before_.find(name)) at.refuse(fmt::format("{} is given twice", shown(name)));
         check_word(at, name);
+        std::string header = name;
+        std::ranges::replace(header, ',', '.');  // 1,5 may be a number as well
+        if (!io::is_word(header)) refuse_word(at, name);
         if (name == "set" || name == "pdf" || name == "weight")
             at.refuse(fmt::format("the column name {} is reserved", name));
         if (name == "e" || name == "pi")
@@ -165,10 +169,14 @@ class ParameterReader {
         if (word.empty() || word != printable(word) || word != trim(word) || word.size() > 200 ||
             word.find_first_of("\"[]") != std::string::npos || word[0] == '#' || word[0] == '{' ||
             parse_number(word))
-            at.refuse(
-                fmt::format("{} cannot be a name; expected printable characters, not a number, "
-                            "without quotes and brackets",
-                            shown(word)));
+            refuse_word(at, word);
+    }
+
+    [[noreturn]] static void refuse_word(const Place& at, const std::string& word) {
+        at.refuse(
+            fmt::format("{} cannot be a name; expected printable characters, not a number, "
+                        "without quotes and brackets",
+                        shown(word)));
     }
 
     void check_keys(std::vector<std::string> more) const {
