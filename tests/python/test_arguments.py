@@ -193,12 +193,8 @@ def test_sentences_name_argument_value_and_expectation():
 
 
 def test_lists_of_names_are_not_split_at_commas_of_names():
-    columns = {"length, outer": np.linspace(0, 1, 8), "b": np.zeros(8), 'y, "1"': np.arange(8.0)}
-    table = stipple.Points(np.column_stack(list(columns.values())), meta={"columns": list(columns)})
-    report = stipple.analyze("sensitivity", table, inputs=["length, outer"], response=['y, "1"'],
-                             method="rank")
-    assert list(report) == ['y, "1"']
-    assert "length, outer" in report['y, "1"']
+    settings = stipple._arguments.settings_of({"inputs": ["a, b", 1], "response": ['y "1"']})
+    assert settings == [("inputs", '"a, b","1"'), ("response", '"y ""1"""')]
 
 
 def test_numbers_of_numpy_are_numbers():

@@ -63,7 +63,8 @@ TEST(Experiments, SensitivityRefusesUnknownKeys) {
     good(
         box.shell("stipple generate sobol -n 64 -d 2 | awk 'NR == 1 {print \"x,y,LOAD\"; next} "
                   "{split($0, u, \",\"); print $0 \",\" u[1] + u[2]}' > runs.csv"));
-    const std::string analyze = "stipple analyze sensitivity runs.csv -f csv --keys ";
+    const std::string analyze =
+        "stipple analyze sensitivity runs.csv --inputs x,y --response LOAD -f csv --keys ";
     for (const char* key : {"nonsense", "LOAD.z.first", "first,nonsense"})
         expect_refusal(box.shell(analyze + key), 2, "--keys: sensitivity has no result '");
     for (const char* key : {"LOAD.x.first", "x.first", "x", "LOAD"})
