@@ -151,7 +151,7 @@ std::string short_number(double x);
 /// One page of PDF 1.4 with embedded fonts; one unit is `scale` times 3/4 of a point.
 std::string pdf_bytes(const Drawing& drawing, double scale, const PictureNotes& notes = {});
 
-/// The note with this keyword in a file of pdf_bytes(); empty if there is none.
+/// The note that pdf_bytes() wrote under this keyword; empty if the file has none.
 std::string pdf_note(std::string_view pdf, const std::string& keyword);
 
 /// A PNG file of pixels. If `grey`, writes only one channel; red, green and blue must be equal.
