@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The public API except studies and pages: calls by name, and checks of the caller's arguments.
+#include <cmath>
 #include <mutex>
 
 #include "core/error.hpp"
@@ -73,6 +74,14 @@ std::vector<std::string> analyzer_names() { return names_of_units(analyzers::all
 
 PointSet generate(std::string_view text, const Request& request, const Settings& settings,
                   const RunContext& run) try {
+    if (const auto& box = request.bounds) {
+        bool good = !box->low.empty() && box->low.size() == box->high.size() &&
+                    request.dimension.value_or(box->low.size()) == box->low.size();
+        for (std::size_t k = 0; good && k < box->low.size(); ++k)
+            good = box->low[k] < box->high[k] && std::isfinite(box->low[k]) &&
+                   std::isfinite(box->high[k]);
+        if (!good) fail(ErrorKind::usage, "bounds: expected finite low < high for each coordinate");
+    }
     const Spec spec = spec_without_coordinates(text);
     const Generator& generator = find_generator(spec.name);
     return generate(generator, request, merged(spec, generator.options, settings), run);
