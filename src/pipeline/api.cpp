@@ -75,9 +75,11 @@ std::vector<std::string> analyzer_names() { return names_of_units(analyzers::all
 PointSet generate(std::string_view text, const Request& request, const Settings& settings,
                   const RunContext& run) try {
     if (const auto& box = request.bounds) {
-        bool good = !box->low.empty() && box->low.size() == box->high.size() &&
-                    request.dimension.value_or(box->low.size()) == box->low.size();
-        for (std::size_t k = 0; good && k < box->low.size(); ++k)
+        const std::size_t d = request.dimension.value_or(box->dimension());
+        if (box->dimension() != d)
+            fail(ErrorKind::usage, "--bounds: {} ranges for {} coordinates", box->dimension(), d);
+        bool good = d > 0 && box->high.size() == d;
+        for (std::size_t k = 0; good && k < d; ++k)
             good = box->low[k] < box->high[k] && std::isfinite(box->low[k]) &&
                    std::isfinite(box->high[k]);
         if (!good) fail(ErrorKind::usage, "bounds: expected finite low < high for each coordinate");
