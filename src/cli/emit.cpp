@@ -6,10 +6,12 @@
 #include "cli/inputs.hpp"
 #include "cli/session.hpp"
 #include "cli/verbs.hpp"
+#include "core/error.hpp"
 
 namespace stipple::cli {
 
 int EmitRequest::perform(Session& session) const {
+    if (has("name") && name.empty()) fail(ErrorKind::usage, "--name: '' is not a name");
     const Generator& generator = find_generator(unit);
     SetsToMake job = sets_asked(generator, settings_of(generator.options, *this), *this);
     job.command = command_text(*this);

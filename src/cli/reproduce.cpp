@@ -30,6 +30,7 @@
 #include "pipeline/chain.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/reproduction.hpp"
+#include "pipeline/warping.hpp"
 #include "plot/drawing/drawing.hpp"
 #include "study/study_table.hpp"
 
@@ -210,8 +211,9 @@ std::vector<std::string> shell_words(std::string_view command) {
     return words;
 }
 
-/// Arguments reconstructed from a provenance without a command.
-Arguments arguments_of(const Provenance& meta, const std::string& name) {
+/// Arguments reconstructed from a provenance without a command: its first steps as --warp, up to an
+/// inverse or a truncation, which only later commands can have applied.
+Arguments arguments_of(const Provenance& meta, const std::string& name, const RunContext& run) {
     if (!meta.shard.empty() || meta.efficiency < 1)
         fail(ErrorKind::input, "{}: its provenance has no command, which a part of a set needs",
              name);
@@ -221,8 +223,15 @@ Arguments arguments_of(const Provenance& meta, const std::string& name) {
     typed.settings = meta.options;
     typed.common = {{"count", std::to_string(meta.count)}, {"seed", std::to_string(meta.seed)}};
     if (meta.start > 0) typed.common.emplace_back("start", std::to_string(meta.start));
-    for (const std::string& warp : meta.warps) typed.common.emplace_back("warp", warp);
-    if (meta.warps.empty()) typed.common.emplace_back("dimension", std::to_string(meta.dimension));
+    const auto later = std::ranges::find_if(meta.warps, [](const std::string& step) {
+        return step.starts_with(inverse_of) || is_cut(step);
+    });
+    std::for_each(meta.warps.begin(), later,
+                  [&](const std::string& warp) { typed.common.emplace_back("warp", warp); });
+    std::size_t d = meta.dimension;
+    for (auto step = meta.warps.rbegin(); step != meta.warps.rend(); ++step)
+        d = dimension_before_step(*step, d, run);
+    typed.common.emplace_back("dimension", std::to_string(d));
     if (!meta.bounds.empty()) typed.common.emplace_back("bounds", meta.bounds);
     return typed;
 }
@@ -245,10 +254,10 @@ void take_parameters(Arguments& typed, const Provenance& meta) {
 
 /// Arguments of the command in the provenance, or reconstructed ones if it is not a `generate`
 /// command.
-Arguments typed_for(const Original& original) {
+Arguments typed_for(const Original& original, const RunContext& run) {
     const auto words = shell_words(original.meta.command);
     if (words.size() < 3 || words[1] != "generate")
-        return arguments_of(original.meta, original.name);
+        return arguments_of(original.meta, original.name, run);
     std::vector<const char*> argv;
     for (const std::string& word : words) argv.push_back(word.c_str());
     Arguments typed = parse_arguments(static_cast<int>(argv.size()), argv.data());
@@ -282,7 +291,7 @@ Recipe recipe_of(const Original& original, Session& session) {
     const Generator& generator = find_generator(meta.generator);
     Recipe recipe;
     if (!meta.flaw.empty()) fail(ErrorKind::usage, "{}", meta.flaw);
-    Arguments typed = typed_for(original);
+    Arguments typed = typed_for(original, session.run());
     // Checks the options in the provenance as those of a command line.
     Values known = generator.options.defaults();
     for (const auto& [name, text] : meta.options) generator.options.set(known, name, text);
@@ -326,7 +335,7 @@ std::uint64_t stream_version_of(const std::string& name) {
 std::string changed_rules(const Provenance& meta) {
     std::vector<std::string> units = {find_generator(meta.generator).name};
     for (std::string warp : meta.warps) {
-        if (warp.starts_with("cut:")) continue;
+        if (is_cut(warp)) continue;
         if (warp.starts_with("inverse ")) warp.erase(0, 8);
         units.push_back(parse_spec(warp).name);
     }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -22,7 +23,6 @@ const char* library_glsl();
 
 namespace {
 
-constexpr std::size_t most_dimensions = 16;
 constexpr std::uint64_t words_end = std::uint64_t{1} << 32;
 constexpr std::size_t columns = 92;  // of lists and of text in comments
 
@@ -252,7 +252,7 @@ std::string function_name(std::string name, const std::string& generator) {
         name = generator;
         std::ranges::replace(name, '-', '_');
     }
-    const bool valid = std::ranges::all_of(name, in_name);
+    const bool valid = !name.empty() && std::ranges::all_of(name, in_name);
     if (!valid || std::isdigit(static_cast<unsigned char>(name[0])) != 0)
         fail(ErrorKind::usage, "--name: '{}' is not a name of letters, digits and _", name);
     return name;
@@ -263,6 +263,20 @@ bool has_word(std::string_view text, std::string_view word) {
     for (auto at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
         const std::size_t end = at + word.size();
         if ((at == 0 || !in_name(text[at - 1])) && (end == text.size() || !in_name(text[end])))
+            return true;
+    }
+    return false;
+}
+
+/// Whether a name is in a list of words, in which gl_* stands for all that begin with gl_, and
+/// *__* for all that have two underscores.
+bool is_reserved(const std::string& name, const std::string& list) {
+    std::istringstream words(list);
+    for (std::string word; words >> word;) {
+        const bool anywhere = word.front() == '*';
+        const bool open = word.back() == '*';
+        const std::string part = word.substr(anywhere, word.size() - anywhere - open);
+        if (anywhere ? name.find(part) != name.npos : open ? name.starts_with(part) : name == part)
             return true;
     }
     return false;
@@ -281,12 +295,15 @@ std::string without_comments(std::string code) {
 /// Refuses names that mean something else in the language or in this code.
 void check_name(const std::string& name, const std::string& code, const std::string& reserved,
                 const std::string& language) {
-    const bool taken = has_word(reserved, name);
+    const bool taken = is_reserved(name, reserved);
+    const std::string other = "my_" + name;
     if (taken || has_word(without_comments(code), name))
-        fail_with_hint(ErrorKind::usage, fmt::format("choose another, such as my_{}", name),
-                       "--name: '{}' is {}", name,
-                       taken ? "a word of " + (language == "C" ? "C or C++" : language)
-                             : "a name that the code uses itself");
+        fail_with_hint(
+            ErrorKind::usage,
+            "choose another" + (is_reserved(other, reserved) ? "" : ", such as " + other),
+            "--name: '{}' is {}", name,
+            taken ? "a word of " + (language == "C" ? "C or C++" : language)
+                  : "a name that the code uses itself");
 }
 
 /// A command for a comment, which it must not end.
@@ -345,7 +362,7 @@ std::string emitted(SetsToMake job, Language language, std::string name, const R
     job.request.seed = 1;
     job.sets = 3;
     const Plan plan = plan_for(generator, job.request, job.options);
-    if (plan.dimension > most_dimensions)
+    if (plan.dimension > most_dimensions)  // of a given vector
         fail(ErrorKind::usage, "--dimension: {} is outside [1, {}], the range of emitted code",
              plan.dimension, most_dimensions);
     if (is_shader(language) && plan.count >= words_end)

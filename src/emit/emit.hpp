@@ -11,11 +11,14 @@
 //         HLSL (there, those of warps up to rounding errors).
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "pipeline/generated.hpp"
 
 namespace stipple::emit {
+
+constexpr std::size_t most_dimensions = 16;
 
 enum class Language { c, glsl, hlsl, python };
 

@@ -14,6 +14,10 @@ significand sin sincos sinh sqrt tan tanh tgamma trunc y0 y1 yn HUGE_VAL INFINIT
 bcmp bcopy bzero ffs index memccpy memchr memcmp memcpy memmem memmove memset rindex stpcpy strcasecmp strcat strchr
 strcmp strcoll strcpy strcspn strdup strerror strlen strncasecmp strncat strncmp strncpy strndup strnlen strpbrk strrchr
 strsep strsignal strspn strstr strtok strxfrm
+EOF INT16_* INT32_* INT64_* INT8_* INTMAX_* INTPTR_* M_* UINT16_* UINT32_* UINT64_* UINT8_* UINTMAX_* UINTPTR_*
+abort abs calloc exit fprintf free getchar gets int_* linux malloc printf putchar puts qsort rand realloc remove rename
+scanf sprintf srand stderr stdin stdout uint_* unix vprintf
+_Alignas _Alignof _Atomic _Bool _Complex _Decimal* _Float* _Generic _Imaginary _Noreturn _Static_assert _Thread_local *__*
 %part file
 /* SPDX-License-Identifier: MIT. Copyright (c) 2026 The stipple authors.
  *

@@ -11,6 +11,14 @@ protected public readonly register reinterpret_cast resource restrict row_major 
 snorm stateblock static static_cast superp tbuffer technique template texture this throw triangle triangleadj try typedef
 typename uniform union unorm using varying vertexfragment virtual volatile writeonly
 asfloat asint asuint firstbithigh
+AppendStructuredBuffer Buffer* ByteAddressBuffer ConstantBuffer ConsumeStructuredBuffer InputPatch LineStream OutputPatch
+PointStream RW* RasterizerOrdered* RaytracingAccelerationStructure Sampler* StructuredBuffer SubpassInput* Texture*
+TriangleStream int16_t* int64_t* float16_t* float32_t* float64_t* int32_t* uint16_t* uint32_t* uint64_t* f16* f32* f64*
+i8vec* i16vec* i32vec* i64vec* u8vec* u16vec* u32vec* u64vec* min10* min12* min16* double2* double3* double4* half2* half3*
+half4* bool1* float1* int1* uint1* image* iimage* uimage* isampler* usampler* sampler1D* sampler2D* sampler3D* samplerB*
+samplerC* sampler_state samplerShadow subpassInput* isubpassInput* usubpassInput* texture1D* texture2D* texture3D*
+textureB* textureC* itexture* utexture* accelerationStructureEXT rayQueryEXT hitObject* precise dispatch numthreads
+pointStream gl_* *__*
 %part file
 /* SPDX-License-Identifier: MIT. Copyright (c) 2026 The stipple authors.
  *

@@ -62,11 +62,7 @@ BoxSpace space_of(const Plan& plan, bool torus) {
 }
 
 Plan plan_in_bounds(const Request& request) {
-    const Plan plan = default_plan(request, 1024, request.bounds ? request.bounds->dimension() : 2);
-    if (plan.bounds && plan.bounds->dimension() != plan.dimension)
-        fail(ErrorKind::usage, "--bounds: {} ranges for {} coordinates", plan.bounds->dimension(),
-             plan.dimension);
-    return plan;
+    return default_plan(request, 1024, request.bounds ? request.bounds->dimension() : 2);
 }
 
 Plan plan_in_box(const Request& request, const Values& options) {

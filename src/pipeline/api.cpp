@@ -43,20 +43,40 @@ Spec spec_without_coordinates(std::string_view text) {
     return spec;
 }
 
-/// Returns the set; one without a domain is put on the unit cube.
-PointSet placed(PointSet points) {
-    if (!points.domain) points.domain = unit_cube(points.dimension());
-    return points;
+DomainPtr domain_or_cube(const PointSet& points) {
+    return points.domain ? points.domain : unit_cube(points.dimension());
 }
 
-/// As placed(), and checks that the domain fits the points, for calls that do not check it later.
-/// @throws Error(usage)
-PointSet on_its_domain(PointSet set) {
-    PointSet points = placed(std::move(set));
-    if (points.domain->dimension() != points.dimension())
+/// @throws Error(usage) unless each point has one, or none; Error(input) unless they are above 0
+void check_densities(const PointSet& points) {
+    const auto& densities = points.densities;
+    if (!densities.empty() && densities.size() != points.count())
+        fail(ErrorKind::usage, "{} densities for {} points", densities.size(), points.count());
+    for (std::size_t i = 0; i < densities.size(); ++i)
+        if (!(densities[i] > 0))
+            fail(ErrorKind::input, "point {}: its density is {}; expected a number above 0", i,
+                 densities[i]);
+}
+
+/// Checks what a caller may have put into a set, for calls that do not check it later.
+/// @throws Error(usage), Error(input)
+void check(const PointSet& points) {
+    if (points.domain && points.domain->dimension() != points.dimension())
         fail(ErrorKind::usage, "points of {} coordinates are not on {}", points.dimension(),
              points.domain->title());
-    return points;
+    check_densities(points);
+    const auto numbers = points.flat();
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (!std::isfinite(numbers[i]))
+            fail(ErrorKind::input, "point {}: coordinate {} is {}; expected a finite number",
+                 i / points.dimension(), i % points.dimension() + 1, numbers[i]);
+}
+
+/// A checked copy with a domain.
+PointSet checked(PointSet set) {
+    check(set);
+    set.domain = domain_or_cube(set);
+    return set;
 }
 
 void require_rows(std::span<const double> rows, std::size_t dimension) {
@@ -74,16 +94,6 @@ std::vector<std::string> analyzer_names() { return names_of_units(analyzers::all
 
 PointSet generate(std::string_view text, const Request& request, const Settings& settings,
                   const RunContext& run) try {
-    if (const auto& box = request.bounds) {
-        const std::size_t d = request.dimension.value_or(box->dimension());
-        if (box->dimension() != d)
-            fail(ErrorKind::usage, "--bounds: {} ranges for {} coordinates", box->dimension(), d);
-        bool good = d > 0 && box->high.size() == d;
-        for (std::size_t k = 0; good && k < d; ++k)
-            good = box->low[k] < box->high[k] && std::isfinite(box->low[k]) &&
-                   std::isfinite(box->high[k]);
-        if (!good) fail(ErrorKind::usage, "bounds: expected finite low < high for each coordinate");
-    }
     const Spec spec = spec_without_coordinates(text);
     const Generator& generator = find_generator(spec.name);
     return generate(generator, request, merged(spec, generator.options, settings), run);
@@ -95,7 +105,12 @@ Report analyze(std::string_view text, const PointSet& points, const Settings& se
                const RunContext& run) try {
     const Spec spec = spec_without_coordinates(text);
     const Analyzer& analyzer = find_analyzer(spec.name);
-    if (!points.domain) return analyze(text, placed(points), settings, run);
+    check_densities(points);
+    if (!points.domain) {
+        PointSet placed = points;
+        placed.domain = unit_cube(points.dimension());
+        return analyze(text, placed, settings, run);
+    }
     return analyze(analyzer, points, merged(spec, analyzer.options, settings), run);
 } catch (...) {
     throw_to_caller();
@@ -146,7 +161,9 @@ Sampler::Sampler(std::string_view text, const Request& request) try
     if (request.bounds)
         fail(ErrorKind::usage, "a Sampler gives points of the unit cube; leave out the bounds");
     const Values values = spec.values(generator.options);
-    state_->plan = plan_for(generator, request, values);
+    Request first = request;
+    if (!first.count && generator.traits.prefix) first.count = 1;  // so that any start is possible
+    state_->plan = plan_for(generator, first, values);
     const std::uint64_t count = state_->plan.count;
     state_->end =
         generator.traits.prefix ? largest_count(generator, request, values, count) : count;
@@ -174,18 +191,18 @@ void Sampler::fill(std::uint64_t first, std::span<double> rows) const {
 // ---------------------------------------------------------------- warps
 
 PointSet warp(std::string_view spec, const PointSet& points, const RunContext& run) try {
-    return warped_set(on_its_domain(points), parse_spec(spec), false, run);
+    return warped_set(checked(points), parse_spec(spec), false, run);
 } catch (...) {
     throw_to_caller();
 }
 
 PointSet warp_back(std::string_view spec, const PointSet& points, const RunContext& run) try {
-    return warped_set(on_its_domain(points), parse_spec(spec), true, run);
+    return warped_set(checked(points), parse_spec(spec), true, run);
 } catch (...) {
     throw_to_caller();
 }
 
-std::string domain_of(const PointSet& points) { return placed(points).domain->spec(); }
+std::string domain_of(const PointSet& points) { return domain_or_cube(points)->spec(); }
 
 DomainPtr domain_named(std::string_view spec, std::size_t dimension, const RunContext& run) try {
     return parse_domain(spec, dimension, run);
@@ -193,10 +210,12 @@ DomainPtr domain_named(std::string_view spec, std::size_t dimension, const RunCo
     throw_to_caller();
 }
 
-double measure_of(const PointSet& points) { return placed(points).domain->measure(); }
+double measure_of(const PointSet& points) { return domain_or_cube(points)->measure(); }
 
 std::vector<double> densities(const PointSet& points) try {
-    const DomainPtr domain = on_its_domain(points).domain;
+    check(points);
+    if (!points.densities.empty()) return points.densities;
+    const DomainPtr domain = domain_or_cube(points);
     std::vector<double> density(points.count());
     for (std::size_t i = 0; i < density.size(); ++i) density[i] = domain->density(points[i]);
     return density;
@@ -208,10 +227,12 @@ struct Warper::State : WarpChain {
     using WarpChain::WarpChain;
 };
 
-Warper::Warper(std::span<const std::string> texts, std::size_t dimension) {
+Warper::Warper(std::span<const std::string> texts, std::size_t dimension) try {
     std::vector<Spec> specs;
     for (const std::string& text : texts) specs.push_back(parse_spec(text));
-    state_ = std::make_unique<State>(specs, dimension);
+    state_ = std::make_unique<State>(specs, dimension, ChainSet{.count = 0});
+} catch (...) {
+    throw_to_caller();
 }
 Warper::Warper(const std::string& spec, std::size_t dimension)
     : Warper(std::span(&spec, 1), dimension) {}
@@ -259,7 +280,7 @@ void write(const std::string& path, std::span<const PointSet> sets, const WriteO
     if (options.precision && (*options.precision < 0 || *options.precision > 1000))
         fail(ErrorKind::usage, "a precision of {} is outside [0, 1000]", *options.precision);
     std::vector<PointSet> copies;
-    for (const PointSet& set : sets) copies.push_back(on_its_domain(set));
+    for (const PointSet& set : sets) copies.push_back(checked(set));
     write_sets(std::move(copies), target, run);
 } catch (...) {
     throw_to_caller();

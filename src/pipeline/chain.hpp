@@ -30,7 +30,7 @@ namespace stipple {
 /// Properties of a set of points on which its images depend.
 struct ChainSet {
     std::uint64_t seed = 1;
-    std::uint64_t count = 1;  ///< points of the whole set
+    std::uint64_t count = 1;  ///< points of the whole set; 0: not known
     /// Base of the digits of each coordinate, or one base for all; empty: 2.
     std::vector<std::uint32_t> bases = {};
     /// Ranges of the coordinates, of which those that no warp takes are scaled after the chain.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -207,7 +208,7 @@ PointSet points_of(Sequence& sequence, const Plan& plan, std::uint64_t start,
                    const RunContext& run) {
     const std::size_t d = plan.dimension;
     need_memory_of(plan, run);
-    PointSet points(Rows::unwritten(plan.count * d), d);
+    PointSet points(Rows::unwritten(plan.count, d), d);
     const RunContext rest = run.best_is_wanted() ? unstopped(run) : run;
     walk_to(sequence, start, d, rest);
     fill_rows(sequence, start, WarpChain({}, d), {}, points.flat(), rest);
@@ -237,6 +238,15 @@ std::pair<std::size_t, std::vector<std::size_t>> left_by_warps(const SetsToMake&
     return {d, std::move(left)};
 }
 
+/// @throws Error(usage) unless it is a box of finite size
+void require_box(const Box& box) {
+    const std::size_t d = box.dimension();
+    bool good = d > 0 && box.high.size() == d;
+    for (std::size_t k = 0; good && k < d; ++k)
+        good = box.low[k] < box.high[k] && std::isfinite(box.extent(k));
+    if (!good) fail(ErrorKind::usage, "--bounds: expected finite low < high for each coordinate");
+}
+
 /// Completes a job: adds the settings that follow from named parameters, and expands the bounds to
 /// a range for each coordinate of the generator's points, [0, 1) for those that warps take.
 /// @throws Error(usage)
@@ -244,6 +254,7 @@ SetsToMake completed(SetsToMake asked, const RunContext& run) {
     if (!asked.warps.empty())
         take_parameters(*asked.generator, asked.warps, asked.request, asked.options, run);
     auto& bounds = asked.request.bounds;
+    if (bounds) require_box(*bounds);
     if (!bounds || asked.warps.empty()) return asked;
     const auto [d, kept] = left_by_warps(asked);
     Box all{std::vector<double>(d, 0), std::vector<double>(d, 1)};
@@ -289,6 +300,9 @@ GeneratedSets::GeneratedSets(SetsToMake asked, const RunContext& run)
       chain_(make_chain({}, run)),
       domain_(chain_->empty() && asked_.request.bounds ? box_domain(*asked_.request.bounds)
                                                        : chain_->domain()) {
+    if (const auto& box = asked_.request.bounds; box && box->dimension() != plan_.dimension)
+        fail(ErrorKind::usage, "--bounds: {} ranges for {} coordinates", box->dimension(),
+             plan_.dimension);
     if (generator_.settle) generator_.settle(asked_.options);
     auto files = files_of(generator_.options, asked_.options, generator_.writes);
     files.insert(files.end(), chain_->record().files.begin(), chain_->record().files.end());

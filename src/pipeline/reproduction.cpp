@@ -129,7 +129,7 @@ Comparison compared(const SetStream& stream, const Target& written, io::PointStr
 /// @param have number of sets before the step; updated to the number after it
 Making after_step(Making before, const std::string& step, std::uint64_t sets, std::uint64_t& have,
                   const RunContext& run) {
-    if (step == cut_to_single || step.starts_with(cut_to_digits)) {
+    if (is_cut(step)) {
         Target cut{.single = step == cut_to_single};
         if (!cut.single) {
             const auto digits = parse_integer(std::string_view(step).substr(cut_to_digits.size()));

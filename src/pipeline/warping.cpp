@@ -51,6 +51,14 @@ std::size_t dimension_before(const Spec& spec, std::size_t after, const RunConte
     return after - gives + mapping->cube_dimension();
 }
 
+/// Numbers per row before an inverse, if its images have rows of `after` numbers.
+std::size_t dimension_before_inverse(const Spec& spec, std::size_t after, const RunContext& run) {
+    const Warp& warp = find_warp(spec.name);
+    const std::size_t given = spec.coordinates.empty() ? after : spec.coordinates.size();
+    const auto mapping = warp.make(spec.values(warp.options), given, run);
+    return after - mapping->cube_dimension() + mapping->domain()->dimension();
+}
+
 /// Whether all coordinates that are neither taken nor already warped are in the unit cube, as their
 /// domain claims.
 bool others_in_cube(const PointSet& points, std::span<const std::size_t> taken,
@@ -212,6 +220,14 @@ Provenance without_making(const Provenance& meta) {
 
 }  // namespace
 
+std::size_t dimension_before_step(std::string_view step, std::size_t after, const RunContext& run) {
+    if (is_cut(step)) return after;
+    const bool back = step.starts_with(inverse_of);
+    const Spec spec = parse_spec(step.substr(back ? inverse_of.size() : 0));
+    if (scramble_named(spec.name) != nullptr) return after;
+    return back ? dimension_before_inverse(spec, after, run) : dimension_before(spec, after, run);
+}
+
 bool takes_whole_sets(const Spec& warp, std::size_t dimension, const RunContext& run) {
     const Warp& unit = find_warp(warp.name);
     const std::size_t given = warp.coordinates.empty() ? dimension : warp.coordinates.size();
@@ -223,7 +239,7 @@ std::vector<std::uint32_t> digit_bases(const Provenance& meta) {
     const Generator* generator = generator_named(meta.generator);
     if (generator == nullptr || !generator->bases || !meta.bounds.empty()) return {};
     const auto keeps_digits = [](const std::string& step) {
-        return step == cut_to_single || step.starts_with(cut_to_digits) ||
+        return is_cut(step) ||
                (!step.starts_with(inverse_of) && scramble_named(parse_spec(step).name) != nullptr);
     };
     if (!std::ranges::all_of(meta.warps, keeps_digits)) return {};
@@ -237,8 +253,12 @@ std::vector<std::uint32_t> digit_bases(const Provenance& meta) {
 
 PointSet warped_set(const PointSet& set, const Spec& warp, bool inverse, const RunContext& run) {
     const bool densities = !set.densities.empty();
-    const ChainSet of{.bases = digit_bases(set.provenance)};
-    return warped(set, Warping(warp, inverse, set.domain, {}, run, of, densities), run);
+    const ChainSet of{.count = set.count(), .bases = digit_bases(set.provenance)};
+    Spec spec = warp;
+    const auto has_seed = [](const auto& item) { return item.first == scramble_seed.name; };
+    if (scramble_named(spec.name) != nullptr && std::ranges::none_of(spec.settings, has_seed))
+        spec.settings.emplace_back(scramble_seed.name, std::to_string(of.seed));  // is recorded
+    return warped(set, Warping(spec, inverse, set.domain, {}, run, of, densities), run);
 }
 
 bool can_stream(const io::PointStream& stream, const Target& target) {

@@ -31,6 +31,15 @@ struct Unwarped {
 /// unknown.
 std::vector<std::uint32_t> digit_bases(const Provenance& meta);
 
+/// Whether a step of a provenance says that numbers were truncated.
+inline bool is_cut(std::string_view step) {
+    return step == cut_to_single || step.starts_with(cut_to_digits);
+}
+
+/// Numbers per row before a step of a provenance: a warp, an inverse or a truncation.
+/// @param after numbers per row of its results
+std::size_t dimension_before_step(std::string_view step, std::size_t after, const RunContext& run);
+
 /// Whether the warp needs all points of a set at once, if they have this dimension.
 bool takes_whole_sets(const Spec& warp, std::size_t dimension, const RunContext& run);
 

@@ -58,7 +58,7 @@ struct ItemToObject {
 PointSet points_of(const Array& rows, const std::string& domain) {
     const auto n = static_cast<std::size_t>(rows.shape(0));
     const auto d = static_cast<std::size_t>(rows.shape(1));
-    PointSet points(Rows::unwritten(n * d), d);
+    PointSet points(Rows::unwritten(n, d), d);
     std::copy_n(rows.data(), n * d, points.flat().begin());
     points.domain = parse_domain(domain, d);
     return points;

@@ -432,7 +432,7 @@ class Indexed {
         const std::size_t d = dimension();
         return array_of(released(how, [&](const RunContext& run) {
             run.need_memory(8 * static_cast<double>(count) * static_cast<double>(d), "the points");
-            PointSet points(Rows::unwritten(count * d), d);
+            PointSet points(Rows::unwritten(count, d), d);
             constexpr std::uint64_t some = 65'536;
             for (std::uint64_t i = 0; i < count; i += some) {
                 run.check_stop();

@@ -4,8 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
-#include <map>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
@@ -122,6 +121,17 @@ Kind kind_of(std::string name, std::string verb, const std::vector<Unit>& units)
     return kind;
 }
 
+// The kinds that most commands need; to make the others as well would triple the program's start.
+const Kind& generator_kind() {
+    static const Kind kind = kind_of("generators", "generate", generators::all());
+    return kind;
+}
+
+const Kind& analyzer_kind() {
+    static const Kind kind = kind_of("analyzers", "analyze", analyzers::all());
+    return kind;
+}
+
 Json value_json(const Value& value) {
     return std::visit([](const auto& held) -> Json { return held; }, value);
 }
@@ -159,25 +169,22 @@ Json unit_json(const UnitInfo& unit, std::string_view kind) {
 
 const std::vector<Kind>& catalog() {
     static const std::vector<Kind> all = {
-        kind_of("generators", "generate", generators::all()),
-        kind_of("scrambles", "warp", scrambles::all()), kind_of("warps", "warp", warps::all()),
-        kind_of("analyzers", "analyze", analyzers::all()), kind_of("formats", "", io::all())};
+        generator_kind(), kind_of("scrambles", "warp", scrambles::all()),
+        kind_of("warps", "warp", warps::all()), analyzer_kind(), kind_of("formats", "", io::all())};
     return all;
 }
 
 const Kind* units_for(std::string_view verb) {
-    static const auto by_verb = [] {
-        std::map<std::string, Kind, std::less<>> found;
-        for (const Kind& kind : catalog()) {
-            if (kind.verb.empty()) continue;
-            Kind& all = found[kind.verb];
-            all.name = kind.name;
-            all.units.insert(all.units.end(), kind.units.begin(), kind.units.end());
-        }
-        return found;
+    if (verb == "generate" || verb == "emit") return &generator_kind();
+    if (verb == "analyze") return &analyzer_kind();
+    if (verb != "warp") return nullptr;
+    static const Kind moving = [] {
+        Kind both = kind_of("warps", "warp", scrambles::all());
+        std::ranges::move(kind_of("warps", "warp", warps::all()).units,
+                          std::back_inserter(both.units));
+        return both;
     }();
-    const auto it = by_verb.find(verb == "emit" ? "generate" : verb);
-    return it == by_verb.end() ? nullptr : &it->second;
+    return &moving;
 }
 
 const UnitInfo* find_unit(const Kind& kind, std::string_view name) {

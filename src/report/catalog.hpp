@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,8 +25,8 @@ struct UnitInfo {
     std::vector<std::string> aliases = {};
     std::shared_ptr<const Json> traits = {};
     std::vector<std::string> remarks = {};  ///< the traits in words
-    std::vector<Option> options = {};
-    std::vector<ResultKey> results = {};  ///< for analyzers
+    std::span<const Option> options = {};
+    std::span<const ResultKey> results = {};  ///< for analyzers
 };
 
 struct Kind {

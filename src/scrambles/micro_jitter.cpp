@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "math/digital/scramble_stream.hpp"
 #include "math/digital/stratum.hpp"
 #include "scrambles/scramble.hpp"
@@ -39,6 +40,8 @@ std::uint64_t interval_of(double x, std::uint64_t count) {
 Randomization make(const Values& options, const ScrambleRequest& request) {
     const std::uint64_t count =
         options.given(cells) ? static_cast<std::uint64_t>(options[cells]) : request.count;
+    if (count == 0)
+        fail(ErrorKind::usage, "micro-jitter: --cells: needed, as the number of points is unknown");
     const Rng rng = scramble_numbers(request.seed, ScrambleStream::micro_jitter);
     return [count, rng, which = request.coordinates](std::uint64_t first, std::span<double> rows) {
         // A fixed stride gives a coordinate the same number whichever others are scrambled.

@@ -25,7 +25,7 @@ struct ScrambleRequest {
     /// Coordinates to scramble, as positions in a row, from 0.
     std::vector<std::size_t> coordinates = {};
     std::uint64_t seed = 1;
-    std::uint64_t count = 1;  ///< points in the whole set
+    std::uint64_t count = 1;  ///< points in the whole set; 0: not known
 };
 
 /// One random choice of a scramble's map; safe to call from several threads. Moves points first,

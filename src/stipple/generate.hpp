@@ -31,7 +31,7 @@ struct Request {
     std::uint64_t seed = 1;
 };
 
-/// Options as text, {{"base", "3"}}, in addition to those of the spec.
+/// Options as text, {{"base", "3"}}, in addition to those of the spec, or in place of them.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 /// Names of all generators, in alphabetical order.
@@ -57,7 +57,8 @@ class Sampler {
 
     [[nodiscard]] std::size_t dimension() const;
 
-    /// Fills `rows` with points first, first + 1, ...; coordinates in [0, 1).
+    /// Fills `rows` with points first, first + 1, ...; coordinates in [0, 1). Point 0 is the one
+    /// with the index `start` of the request.
     /// @throws Error(usage) if the size is not a multiple of dimension(), and for indices beyond
     /// the last point
     void fill(std::uint64_t first, std::span<double> rows) const;

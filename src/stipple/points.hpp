@@ -38,8 +38,9 @@ class Rows {
     /// Takes ownership of the numbers.
     explicit Rows(std::vector<double> numbers) : given_(std::move(numbers)), view_(given_) {}
 
-    /// Fresh memory for `count` numbers, which must be written before they are read.
-    static Rows unwritten(std::size_t count);
+    /// Fresh memory for `count` rows of `width` numbers, which must be written before they are read.
+    /// @throws Error(limit) if the memory cannot be had
+    static Rows unwritten(std::size_t count, std::size_t width);
 
     Rows(const Rows& other) : Rows(std::vector<double>(other.view_.begin(), other.view_.end())) {}
     Rows(Rows&& other) noexcept
@@ -114,9 +115,8 @@ class PointSet {
   public:
     PointSet() = default;
 
-    /// All coordinates 0.
-    PointSet(std::size_t count, std::size_t dimension)
-        : PointSet(std::vector<double>(count * dimension), dimension) {}
+    /// All coordinates 0. @throws Error(limit) if the memory cannot be had
+    PointSet(std::size_t count, std::size_t dimension);
 
     /// Takes rows of `dimension` numbers. @throws Error(usage) if the last row is incomplete
     PointSet(std::vector<double> rows, std::size_t dimension)
@@ -147,7 +147,8 @@ class PointSet {
 
     DomainPtr domain;  ///< the space that the points live on; null: the unit cube
 
-    /// Density of each point with respect to the domain's measure; empty if it is the domain's own.
+    /// Density of each point, above 0, with respect to the domain's measure; empty if it is the
+    /// domain's own.
     std::vector<double> densities;
     Provenance provenance;  ///< empty if unknown
 

@@ -80,6 +80,15 @@ TEST(Emit, RefusesWithASentence) {
     refuses("sobol -d 17", "--dimension: 17 is outside [1, 16]");
     refuses("sobol --language rust", "rust");
     refuses("sobol --name 2d", "--name: '2d' is not a name");
+    refuses("sobol -d 0", "--dimension: 0 is outside [1, 16]");
+    refuses("sobol --name ''", "--name: '' is not a name");
+    for (const std::string name : {"double", "printf", "INT64_MAX", "UINT8_C", "_Bool", "a__b"})
+        refuses("sobol --name " + name, "--name: '" + name + "' is a word of C or C++");
+    for (const std::string name : {"gl_x", "samplerCube", "uimage2D", "a__b", "Texture2DArray",
+                                   "RWBuffer", "min16float3", "uint64_t", "dispatch"})
+        refuses("sobol --language glsl --name " + name, "--name: '" + name + "' is a word of GLSL");
+    EXPECT_EQ(box.shell("stipple emit sobol --language glsl --name sampler_of_pixels").code, 0);
+    refuses("sobol --name a__b", "choose another\n");
     refuses("sobol --name double", "--name: 'double' is a word of C or C++");
     refuses("sobol --name sample --language hlsl", "--name: 'sample' is a word of HLSL");
     refuses("halton --name index --language python", "'index' is a name that the code uses itself");

@@ -219,7 +219,12 @@ TEST(Reproduce, DoesWithoutACommand) {
     good(
         box.shell("stipple generate halton -n 100 -d 3 --start 7 -o a.json && stipple generate "
                   "random -n 50 --seed 3 -w owen -w 'triangle:vertices=[0,0 1,0 0,1]' -o b.json"));
-    for (const char* file : {"a.json", "b.json"}) {
+    good(box.shell(
+        "stipple generate halton --start 1 -n 64 -d 4 -w sphere@1,2 -w normal@4 -o d.json && "
+        "stipple generate halton -n 60 -d 5 -f json | stipple warp owen --seed 4 -f json | "
+        "stipple warp disk@2,3 -o e.json && stipple warp disk@2,3 --inverse e.json -o f.json && "
+        "stipple warp owen f.json -f json | stipple warp sphere@1,2 -o g.json"));
+    for (const char* file : {"a.json", "b.json", "d.json", "e.json", "f.json", "g.json"}) {
         replace_in(box, file, "\"command\":\"stipple generate", "\"command\":\"");
         expect_identical(box, file);
     }

@@ -57,6 +57,9 @@ TEST(Api, ASamplerGivesThePointsOfTheSet) {
     std::vector<double> odd(3);
     EXPECT_EQ(error_of([&] { sampler.fill(0, odd); }),
               "usage: 3 numbers cannot be divided into rows of 2");
+    const std::uint64_t late = (1ULL << 53) - 8;
+    const Sampler tail("random", {.dimension = 2, .start = late});
+    EXPECT_EQ(error_of([&] { tail.fill(0, rows); }).substr(0, 20), "usage: points 0 to 9") << late;
     const Sampler ends("jittered", {.count = 16, .dimension = 2});
     EXPECT_EQ(error_of([&] { ends.fill(7, rows); }),
               "usage: points 7 to 16 are beyond the last one, which is 15");
@@ -112,7 +115,13 @@ TEST(Api, LackOfMemoryIsALimit) {
     const Request vast{.count = 1ULL << 50, .dimension = 2048};
     EXPECT_EQ(kind_of([&] { generate("random", vast); }), ErrorKind::limit);
     EXPECT_EQ(kind_of([&] { generate("sobol:scramble=owen", vast); }), ErrorKind::limit);
+    EXPECT_EQ(kind_of([&] { PointSet(std::size_t{1} << 63, 2); }), ErrorKind::limit);
+    EXPECT_EQ(kind_of([&] { Rows::unwritten(std::size_t{1} << 61, 8); }), ErrorKind::limit);
     if (sanitized()) GTEST_SKIP() << "the sanitizer stops the program when memory is lacking";
+    EXPECT_EQ(error_of([] { PointSet(1ULL << 50, 2); }),
+              "limit: out of memory for 1125899906842624 points of 2 coordinates, which take "
+              "1.8e+07 GB");
+    EXPECT_EQ(kind_of([] { Warper("normal", 1ULL << 50); }), ErrorKind::limit);
     for (const std::string& name : generator_names()) {
         const auto kind = kind_of([&] { generate(name, {.count = 1ULL << 50, .dimension = 2}); });
         EXPECT_TRUE(kind == ErrorKind::limit || kind == ErrorKind::usage) << name;
@@ -169,6 +178,74 @@ TEST(Api, ASetThatNobodyCouldMeanIsRefused) {
     for (const PointSet& odd : {PointSet(), PointSet({nan, 0}, 2), PointSet({-1, 5}, 2)})
         for (const std::string& analyzer : analyzer_names())
             EXPECT_NE(error_of([&] { (void)analyze(analyzer, odd); }), "") << analyzer;
+}
+
+TEST(Api, PartsOfASetThatDoNotFitAreRefused) {
+    const PointSet cube = generate("halton", {.count = 50, .dimension = 2, .start = 1});
+    const std::string path = "stipple_api_test.csv";
+    const auto expect_refused = [&](const PointSet& set, const std::string& words) {
+        for (const std::string name : {"integration", "chi-square", "moments"})
+            EXPECT_EQ(error_of([&] { analyze(name, set); }), words) << name;
+        EXPECT_EQ(error_of([&] { warp("disk", set); }), words);
+        EXPECT_EQ(error_of([&] { warp_back("disk", set); }), words);
+        EXPECT_EQ(error_of([&] { (void)densities(set); }), words);
+        EXPECT_EQ(error_of([&] { write(path, set); }), words);
+        EXPECT_FALSE(std::filesystem::exists(path));
+    };
+    PointSet odd = cube;
+    odd.densities = {1, 2};
+    expect_refused(odd, "usage: 2 densities for 50 points");
+    odd.densities.assign(50, 1);
+    odd.densities[3] = 0;
+    expect_refused(odd, "input: point 3: its density is 0; expected a number above 0");
+    odd = cube;
+    odd[7][1] = nan;
+    EXPECT_EQ(error_of([&] { write(path, odd); }),
+              "input: point 7: coordinate 2 is nan; expected a finite number");
+    odd = cube;
+    odd.domain = domain_named("ball", 3);
+    EXPECT_EQ(error_of([&] { write(path, odd); }),
+              "usage: points of 2 coordinates are not on ball");
+    odd = cube;
+    odd.densities.assign(50, 2);
+    EXPECT_EQ(densities(odd), odd.densities);
+}
+
+TEST(Api, BoundsAreABoxOfThePoints) {
+    const auto refusal = [](const Box& box) {
+        return error_of([&] { generate("halton", {.bounds = box}); });
+    };
+    const double infinity = std::numeric_limits<double>::infinity();
+    for (const Box& box : std::vector<Box>{{{}, {}},
+                                           {{0, 0}, {1}},
+                                           {{0}, {1, 1}},
+                                           {{0, nan}, {1, 1}},
+                                           {{0, 0}, {1, infinity}},
+                                           {{-1e308, 0}, {1e308, 1}},
+                                           {{0, 1}, {1, 1}},
+                                           {{0, 2}, {1, 1}}}) {
+        EXPECT_EQ(refusal(box), "usage: --bounds: expected finite low < high for each coordinate");
+        EXPECT_NE(error_of([&] { generate("poisson-disk", {.bounds = box}); }), "");
+    }
+    EXPECT_EQ(refusal({{0, 0, 0}, {1, 1, 1}}), "usage: --bounds: 3 ranges for 2 coordinates");
+    for (const std::string generator : {"random", "poisson-disk", "best-candidate"})
+        EXPECT_EQ(
+            error_of([&] {
+                generate(generator, {.count = 9, .dimension = 3, .bounds = Box{{0, 0}, {1, 1}}});
+            }),
+            "usage: --bounds: 2 ranges for 3 coordinates")
+            << generator;
+}
+
+// The number of points decides how far micro-jitter moves them.
+TEST(Api, ScramblesKnowTheSetAndAreRecordedWithTheirSeed) {
+    const PointSet set = generate("halton", {.count = 64, .dimension = 2});
+    const PointSet moved = warp("micro-jitter", set);
+    EXPECT_EQ(moved, warp("micro-jitter:cells=64", set));
+    EXPECT_EQ(moved.provenance.warps, std::vector<std::string>{"micro-jitter:seed=1"});
+    EXPECT_EQ(error_of([] { Warper("micro-jitter", 2); }),
+              "usage: micro-jitter: --cells: needed, as the number of points is unknown");
+    EXPECT_NO_THROW(Warper("micro-jitter:cells=64", 2));
 }
 
 TEST(Api, SetsAreWrittenAndReadBack) {

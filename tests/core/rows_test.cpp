@@ -9,7 +9,7 @@ namespace stipple::testing::rows_test {
 
 TEST(Rows, FreshRoomsTakeAsManyNumbersAsAskedForOnSmallAndLargePages) {
     for (const std::size_t count : {0U, 1U, 1000U, (1U << 19) - 1, 1U << 19, 1'234'567U}) {
-        Rows rows = Rows::unwritten(count);
+        Rows rows = Rows::unwritten(count, 1);
         ASSERT_EQ(rows.numbers().size(), count);
         std::ranges::fill(rows.numbers(), 0.5);
         EXPECT_EQ(std::ranges::count(rows.numbers(), 0.5), static_cast<std::ptrdiff_t>(count));
@@ -18,7 +18,7 @@ TEST(Rows, FreshRoomsTakeAsManyNumbersAsAskedForOnSmallAndLargePages) {
 
 TEST(Rows, CopiesAreTheirOwnAndMovesLeaveNothing) {
     for (const bool fresh : {false, true}) {
-        Rows rows = fresh ? Rows::unwritten(3) : Rows(std::vector<double>(3));
+        Rows rows = fresh ? Rows::unwritten(3, 1) : Rows(std::vector<double>(3));
         std::ranges::fill(rows.numbers(), 1.0);
         Rows copy = rows;
         copy.numbers()[0] = 2;

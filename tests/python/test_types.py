@@ -16,7 +16,9 @@ HERE = Path(__file__).parent
 
 def mypy(*arguments, folder):
     """Output of mypy for users, who have installed the package."""
-    paths = {**os.environ, "MYPYPATH": str(PACKAGE.parent), "MYPY_CACHE_DIR": str(folder / "cache")}
+    paths = {**os.environ, "MYPY_CACHE_DIR": str(folder / "cache")}
+    if PACKAGE.parent.name != "site-packages":  # not installed
+        paths["MYPYPATH"] = str(PACKAGE.parent)
     return subprocess.run([sys.executable, "-m", *map(str, arguments)], env=paths, cwd=folder,
                           capture_output=True, text=True)
 

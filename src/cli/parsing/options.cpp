@@ -196,8 +196,9 @@ const std::vector<Row> rows = {
      &Sources::count, 1, most_points},
     {"-d,--dimension", "DIMENSIONS", "2", "one or several, written as for -n", study,
      &SweepRequest::dimensions, 1, most_dimensions},
-    {"-d,--dimension", "D", "2", "dimension", generate | emit, &Sources::dimension, 1,
-     most_dimensions},
+    {"-d,--dimension", "D", "2", "dimension", generate, &Sources::dimension, 1, most_dimensions},
+    {"-d,--dimension", "D", "2", "dimension", emit, &Sources::dimension, 1,
+     stipple::emit::most_dimensions},
     {"-s,--seed", "S", "1", "the first 64-bit seed; 'random' draws one and reports it", study,
      &Request::seed},
     {"-s,--seed", "S", "1", "64-bit seed; 'random' draws one and reports it", generate,
@@ -621,7 +622,7 @@ const CommonOption* find_common(std::string_view name, Verb verb) {
 }
 
 std::vector<Option> own_options(Verb verb, const UnitInfo& unit) {
-    std::vector<Option> own = unit.options;
+    std::vector<Option> own(unit.options.begin(), unit.options.end());
     std::erase_if(own, [&](const Option& option) {
         return find_common("--" + option.name, verb) != nullptr;
     });

@@ -217,7 +217,7 @@ Rows shuffled(const Rows& rows, const Plan& plan, const RunContext& run) {
     constexpr std::uint64_t block = 4096;
     const std::size_t d = plan.dimension;
     const auto from = rows.numbers();
-    Rows out = Rows::unwritten(from.size());
+    Rows out = Rows::unwritten(from.size() / d, d);
     const auto to = out.numbers();
     const std::uint64_t count = from.size() / d;
     const Permutation permutation(count, Rng(plan.seed, ~std::uint64_t{1}).bits(0));

@@ -274,7 +274,7 @@ class TileRounds {
         for (T& tile : tiles_) tile.drop();
         std::size_t numbers = 0;
         for (T& tile : tiles_) numbers += tile.points().size();
-        Rows rows = Rows::unwritten(numbers);
+        Rows rows = Rows::unwritten(numbers, 1);
         auto out = rows.numbers().begin();
         for (T& tile : tiles_) {
             run_.check_stop();

@@ -15,7 +15,7 @@ std::size_t blocks_for(std::size_t points, std::size_t tiles) {
 
 TilePoints::TilePoints(std::size_t tiles, std::size_t numbers, std::size_t capacity)
     : numbers_(numbers),
-      room_(Rows::unwritten(blocks_for(capacity, tiles) * block * numbers)),
+      room_(Rows::unwritten(blocks_for(capacity, tiles) * block, numbers)),
       lists_(tiles),
       next_(blocks_for(capacity, tiles)) {
     assert(numbers >= 1 && numbers <= 4 && capacity <= std::size_t{1} << 26);

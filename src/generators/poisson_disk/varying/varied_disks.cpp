@@ -38,7 +38,7 @@ struct TimedDart {
 };
 
 Rows centers_of(const std::vector<Disk>& disks) {
-    Rows rows = Rows::unwritten(2 * disks.size());
+    Rows rows = Rows::unwritten(disks.size(), 2);
     auto out = rows.numbers().begin();
     for (const Disk& disk : disks) out = std::ranges::copy(disk.at, out).out;
     return rows;
