@@ -173,7 +173,7 @@ constexpr double most_dimensions = 1'000'000;
 constexpr double most_sets = 1'000'000'000;
 constexpr double most_work = 0x1p60;
 
-const std::vector<Row> rows = {
+const Row rows[] = {  // an array, as a vector would copy each
     {"--generators", "SPECS", "",
      "generators to compare, also without this option's name: sobol:scramble=owen,halton or "
      "'sobol --scramble owen' 'rank1-lattice -w cranley-patterson'",
