@@ -153,7 +153,7 @@ static inline @hash_keys @hash_keys_of(unsigned dimension, uint64_t seed) {
     int g;
     for (g = 0; g < 12; g += 2) {
         uint64_t two[2];
-        @two_random(seed, 0x100000003, 6 * (uint64_t)dimension + g / 2, two);
+        @two_random(seed, 0x100000003, 6 * (uint64_t)dimension + (uint64_t)(g / 2), two);
         keys.before[g] = (uint32_t)(two[0] >> 32);
         keys.between[g] = (uint32_t)two[0];
         keys.before[g + 1] = (uint32_t)(two[1] >> 32);

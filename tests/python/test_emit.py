@@ -177,8 +177,8 @@ def compile_and_run(folder, command, source, text):
     return subprocess.run([folder / "a.out"], check=True, capture_output=True).stdout
 
 
-STRICT = "cc -std=c99 -pedantic -Wall -Wextra -Werror -O3 -march=native -ffp-contract=off"
-AS_CPP = "c++ -x c++ -std=c++11 -Wall -Wextra -Werror -O1 -march=native -ffp-contract=off"
+STRICT = "cc -std=c99 -pedantic -Wall -Wextra -Wconversion -Wsign-conversion -Werror -O3 -march=native -ffp-contract=off"
+AS_CPP = "c++ -x c++ -std=c++11 -Wall -Wextra -Wconversion -Wsign-conversion -Werror -O1 -march=native -ffp-contract=off"
 
 
 def demands(code):
