@@ -23,7 +23,7 @@ void spread_outcomes(const Domain& domain, std::span<double> cubes, std::uint64_
                      const RunContext& run) {
     if (!domain.has_outcomes()) return;
     const std::size_t axes = domain.cube_dimension();
-    const Rng rng(1, std::uint64_t{1} << 35);  // a stream that no generator uses
+    constexpr std::uint64_t stream = std::uint64_t{1} << 35;  // of axis 0; no generator uses them
     for_each_block(silent(run), cubes.size() / axes, 4096, [&](const Block& block) {
         Box cell{std::vector<double>(axes, 0), std::vector<double>(axes, 1)};
         for (std::uint64_t i = block.first; i < block.last; ++i)
@@ -35,7 +35,7 @@ void spread_outcomes(const Domain& domain, std::span<double> cubes, std::uint64_
                 cell.low[k] = 0;
                 cell.high[k] = 1;
                 if (mass > 1e-9)
-                    u = std::clamp(u + mass * (rng.uniform((first + i) * axes + k) - 0.5), 0.0,
+                    u = std::clamp(u + mass * (Rng(1, stream + k).uniform(first + i) - 0.5), 0.0,
                                    1.0);
             }
     });

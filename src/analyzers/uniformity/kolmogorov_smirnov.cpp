@@ -21,7 +21,7 @@
 // about 2^-25 d + 1/n times the points of the fullest cell.
 //
 // Outcomes of a discrete distribution are spread at random over their cells in the cube, in the
-// same way in every run, which makes them uniform.
+// same way in every run and with any axes after them, which makes them uniform.
 //
 // Shape   points n x d on any domain whose coordinates preserve probability (all except a few) or
 //         are outcomes, also in pieces.

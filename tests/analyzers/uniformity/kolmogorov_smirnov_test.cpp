@@ -5,6 +5,7 @@
 #include <stop_token>
 
 #include "analyzers/uniformity/kolmogorov.hpp"
+#include "pipeline/domains.hpp"
 #include "support/steps.hpp"
 #include "support/warping.hpp"
 
@@ -212,6 +213,16 @@ TEST(KolmogorovSmirnov, OutcomesAreSpreadEvenly) {
     EXPECT_EQ(
         analyze("kolmogorov-smirnov", warped(*sure, make("random", {1000, 2}))).text("verdict"),
         "uniform");
+}
+
+TEST(KolmogorovSmirnov, OutcomesOfAColumnAreSpreadAlikeBesideOthers) {
+    const PointSet two =
+        warped(*mapping("binomial:trials=4,probability=0.3"), make("random", {50, 2}));
+    PointSet one(50, 1);
+    for (std::size_t i = 0; i < 50; ++i) one[i][0] = two[i][0];
+    one.domain = parse_domain("binomial:trials=4,probability=0.3", 1);
+    EXPECT_EQ(analyze("kolmogorov-smirnov", one).curve("statistic")[0],
+              analyze("kolmogorov-smirnov", two).curve("statistic")[0]);
 }
 
 TEST(KolmogorovSmirnov, NeedsCoordinatesThatPreserveProbability) {
