@@ -148,6 +148,14 @@ std::string format_coordinates(const std::vector<std::size_t>& coordinates) {
     return join(parts, ",");
 }
 
+std::string short_specs(std::span<const std::string> specs) {
+    constexpr std::size_t longest = 80;
+    std::vector<std::string> all(specs.begin(), specs.end());
+    for (std::string& spec : all)
+        if (spec.size() > longest) spec.resize(std::min(spec.find(':'), spec.size()));
+    return join(all, ", ");
+}
+
 std::vector<std::string> split_specs(std::string_view text, std::string_view who) {
     std::vector<std::string> specs;
     std::vector<std::size_t> open;

@@ -42,6 +42,9 @@ std::string format_spec(std::string_view name, const Values& values, const Schem
 std::vector<std::pair<std::string, std::string>> typed_settings(const Values& values,
                                                                 const Schema& schema);
 
+/// Specs for a message, without the options of those that are long, such as a parameter file's text.
+std::string short_specs(std::span<const std::string> specs);
+
 /// Coordinates in the form used after @, counted from 1: "4,5".
 std::string format_coordinates(const std::vector<std::size_t>& coordinates);
 

@@ -282,7 +282,7 @@ void WarpChain::tell_infinite(const RunContext& run) const {
         fmt::format("point {} has a coordinate 0 or 1, which {} maps to infinity; a value far in "
                     "the tail replaces it; leave such points out (generate --start 1) or "
                     "scramble them",
-                    row, join(record_.specs, ", ")));
+                    row, short_specs(record_.specs)));
 }
 
 std::vector<double> WarpChain::forward(std::vector<double> rows, std::uint64_t first) const {
@@ -460,7 +460,7 @@ PointSet preimage_of(const PointSet& points, const WarpChain& chain, const RunCo
 
 void tell_kept(const WarpChain& chain, std::uint64_t count, std::uint64_t kept,
                const RunContext& run) {
-    const std::string warps = join(chain.record().specs, ", ");
+    const std::string warps = short_specs(chain.record().specs);
     if (chain.traits().drops && kept < count)
         run.notify(fmt::format(
             "kept {} of {} points (efficiency {:.3g}): the others have no image "

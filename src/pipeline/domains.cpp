@@ -175,7 +175,7 @@ std::vector<FactorLaw> factor_laws(std::span<const std::string> steps, const Dom
             run.notify(
                 fmt::format("the points come from {}, which is biased; their density on the domain "
                             "{} is not known, and the domain's is used instead",
-                            step, domain->title()));
+                            short_specs({&step, 1}), domain->title()));
     }
     return laws;
 }

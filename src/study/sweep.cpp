@@ -124,7 +124,7 @@ void Sweep::choose() {
 /// Index of the list with a generator's own warps and those of all generators.
 std::size_t Sweep::warp_list(std::vector<std::string> own) {
     own.insert(own.end(), request_.warps.begin(), request_.warps.end());
-    WarpList list{.names = join(own, " ")};
+    WarpList list{.names = own};
     const auto known = std::ranges::find(warp_lists_, list.names, &WarpList::names);
     if (known != warp_lists_.end()) return static_cast<std::size_t>(known - warp_lists_.begin());
     for (const auto& text : own) {

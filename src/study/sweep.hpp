@@ -51,9 +51,9 @@ struct Chosen {
 /// Warps and scrambles of some generators, in order.
 struct WarpList {
     std::vector<Spec> all = {};
-    std::string names = {};     ///< as typed, separated by blanks
-    std::size_t scrambles = 0;  ///< number of scrambles before the first warp
-    bool random = false;        ///< whether there are scrambles
+    std::vector<std::string> names = {};  ///< as typed
+    std::size_t scrambles = 0;            ///< number of scrambles before the first warp
+    bool random = false;                  ///< whether there are scrambles
 
     [[nodiscard]] std::span<const Spec> first() const { return {all.data(), scrambles}; }
     [[nodiscard]] std::span<const Spec> later() const { return std::span(all).subspan(scrambles); }

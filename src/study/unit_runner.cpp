@@ -339,10 +339,10 @@ std::vector<std::string> UnitRunner::before_warps() const {
         for (std::size_t w = 0; w < sweep_.warp_lists().size(); ++w) {
             const auto looks_before = [&](std::size_t d) { return !takes_image({w, d, m}); };
             if (std::ranges::any_of(sweep_.request().dimensions, looks_before))
-                sentences.push_back(
-                    fmt::format("{} does not take points of {}: it measures them "
-                                "before the warp, on the unit cube",
-                                sweep_.measures()[m].spec, sweep_.warp_lists()[w].names));
+                sentences.push_back(fmt::format(
+                    "{} does not take points of {}: it measures them "
+                    "before the warp, on the unit cube",
+                    sweep_.measures()[m].spec, short_specs(sweep_.warp_lists()[w].names)));
         }
     return sentences;
 }

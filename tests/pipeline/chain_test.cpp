@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/chain.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/rng.hpp"
@@ -188,6 +189,11 @@ TEST(WarpChain, TellsOnceOfTheFirstPointThatIsInfinitelyFar) {
     EXPECT_TRUE(told({"normal"}, half).empty());
     EXPECT_TRUE(
         told({"mixture:components=[normal|normal:mean=5]"}, half)[0].starts_with("point 1"));
+    // Long options are left out.
+    const std::string long_name =
+        "mixture:components=[normal:mean=1.5,deviation=2.5|normal:mean=5.5,deviation=3.5 4.5]";
+    EXPECT_THAT(told({long_name.c_str()}, half)[0],
+                ::testing::HasSubstr("which mixture maps to infinity"));
 }
 
 }  // namespace stipple::testing::chain_test
