@@ -166,6 +166,10 @@ StudyChart study_chart(std::span<const MeanRow> means, const std::string& key) {
             topics, [&](const Topic& t) { return property(t) == property(topics[0]); });
     };
     found.chart.title = alike(unit_of) ? capitalised(words_of(unit_of(topics[0]))) : "Study";
+    // A single curve has no legend.
+    if (const auto generators = distinct(means, [](const auto& row) { return row.generator; });
+        generators.size() == 1)
+        found.chart.title += " of " + generators[0];
     found.chart.subtitle = notes_of(means);
     if (alike([](const Topic& t) { return t.dimension; }))
         found.chart.subtitle =

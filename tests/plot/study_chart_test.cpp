@@ -59,6 +59,12 @@ TEST(StudyChart, DrawsMeansWithTheirIntervalsAndSlopes) {
     EXPECT_DOUBLE_EQ(panel.series[1].high[0], 0.55);
 }
 
+TEST(StudyChart, ASingleCurveHasItsGeneratorInTheTitle) {
+    const std::vector<MeanRow> means = {mean_at(16, 3, 1, "sobol:scramble=owen"),
+                                        mean_at(64, 3, 1, "sobol:scramble=owen")};
+    EXPECT_EQ(study_chart(means).chart.title, "Star discrepancy of sobol:scramble=owen");
+}
+
 // 1, 2 and 6 over 2, 4 and 8 points: u = ln n = (1, 2, 3) ln 2, v = ln y = 0, ln 2, ln 6; the slope is
 // (v3 - v1) / (2 ln 2) = ln 6 / ln 4. The residuals are r, -2 r and r with r = ln(3/2) / 6, so the
 // standard error is sqrt(6 r^2 / 2) / ln 2 = 0.169.
