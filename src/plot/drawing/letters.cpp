@@ -177,7 +177,8 @@ Area room_of(const Label& label) {
     return {x - share * width, y - ascent * height, width, height};
 }
 
-std::vector<std::string> wrapped(std::string_view text, double size, double width, bool bold) {
+std::vector<std::string> wrapped(std::string_view text, double size, double width, bool bold,
+                                 bool shorten) {
     constexpr std::u32string_view breaks = U" _-/,.:;=";
     const std::u32string letters = code_points(text);
     const double room = width * em_units / (size * wider(bold));
@@ -193,8 +194,15 @@ std::vector<std::string> wrapped(std::string_view text, double size, double widt
                                letters[end + 1] >= U'0' && letters[end + 1] <= U'9';
             if (!point && breaks.find(letters[end]) != std::u32string_view::npos) good = end + 1;
         }
-        const std::size_t next = end < letters.size() && good > first ? good : end;
-        const std::string line = utf8_of(std::u32string_view(letters).substr(first, next - first));
+        std::size_t next = end < letters.size() && good > first ? good : end;
+        std::string line = utf8_of(std::u32string_view(letters).substr(first, next - first));
+        if (shorten && end < letters.size() && good == first) {
+            used += advance_of(U'…') - advance_of(letters[end]);
+            while (next > first + 1 && used > room) used -= advance_of(letters[--next]);
+            line = utf8_of(std::u32string_view(letters).substr(first, next - first)) + "…";
+            next = letters.find_first_of(breaks, end);
+            next = next == letters.npos ? letters.size() : next + 1;
+        }
         if (const auto text_of_line = trim(line); !text_of_line.empty())
             lines.emplace_back(text_of_line);
         first = next;

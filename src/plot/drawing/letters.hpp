@@ -37,9 +37,10 @@ double text_width(std::string_view text, double size);
 Area room_of(const Label& label);
 
 /// Wraps text to lines of at most this width, also in wider fonts, after blanks and signs such as -
-/// and /, not within decimal numbers; longer words are broken anywhere.
+/// and /, not within decimal numbers; longer words are broken anywhere or, if `shorten`, end with an
+/// ellipsis.
 std::vector<std::string> wrapped(std::string_view text, double size, double width,
-                                 bool bold = false);
+                                 bool bold = false, bool shorten = false);
 
 /// Adds a label with several lines, the last of them at the label's position; the others are above
 /// or, if upward, to the left.

@@ -97,7 +97,8 @@ Ticks ticks_of_words(const Axis& axis, double length, bool upright) {
     for (std::size_t i = 0; i < axis.words.size(); ++i) {
         const double value = axis.first_word + static_cast<double>(i);
         if (std::fmod(static_cast<double>(i), stride) == 0)
-            found.numbers.push_back({value, join(wrapped(axis.words[i], number_size, room), "\n")});
+            found.numbers.push_back(
+                {value, join(wrapped(axis.words[i], number_size, room, false, true), "\n")});
         else
             found.minor.push_back(value);
     }

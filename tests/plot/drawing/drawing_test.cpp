@@ -204,6 +204,9 @@ TEST(Letters, LongTextsAreWrapped) {
     EXPECT_THAT(wrapped("temperature", 12, width_of("temper")), ElementsAre("temper", "ature"));
     EXPECT_THAT(wrapped("slope 0.125", 12, width_of("slope 0.12")), ElementsAre("slope", "0.125"));
     EXPECT_THAT(wrapped("üü", 12, 1), ElementsAre("ü", "ü"));
+    EXPECT_THAT(wrapped("a temperature gradient", 12, width_of("gradient"), false, true),
+                ElementsAre("a", "temp…", "gradient"));
+    EXPECT_THAT(wrapped("üü", 12, 1, false, true), ElementsAre("ü…"));
     for (double width = 1; width < 300; width += 7) {
         std::string all;
         for (const std::string& line : wrapped("a/long/path/to/points.csv", 12, width)) {
