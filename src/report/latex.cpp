@@ -87,13 +87,17 @@ std::string LatexTable::text() const {
 
 namespace {
 
+void add_new(std::vector<std::string>& words, const std::string& word) {
+    if (std::ranges::find(words, word) == words.end()) words.push_back(word);
+}
+
 /// Numbers of a report by key, and those of its short lists as KEY[I].
 std::map<std::string, double> numbers_in(const Report& report, std::vector<std::string>& keys) {
     constexpr std::size_t few = 9;
     std::map<std::string, double> found;
     const auto add = [&](const std::string& key, double number) {
         found[key] = number;
-        if (std::ranges::find(keys, key) == keys.end()) keys.push_back(key);
+        add_new(keys, key);
     };
     for (const std::string& key : report.keys()) {
         if (const auto number = number_at(report, key)) add(key, *number);
@@ -104,31 +108,98 @@ std::map<std::string, double> numbers_in(const Report& report, std::vector<std::
     return found;
 }
 
-/// Table of one analyzer's measurements.
-LatexTable table_of(std::span<const Measurement> all, const std::string& analyzer) {
-    LatexTable table{.comments = {analyzer}, .head = {"set", "$n$"}, .words = 1};
-    std::vector<std::string> keys;
+/// Position of a number in a table with a row for each group and each entry of lists: y.x.first is
+/// in the row y.x, and mean[0] in the row [0].
+struct Position {
+    std::string group = {};
+    std::string entry = {};  ///< "[0]", or empty
+    std::string column = {};
+
+    explicit Position(const std::string& key, bool whole) : column(key) {
+        if (whole) return;
+        const std::size_t end = key.ends_with(']') ? key.rfind('[') : key.size();
+        const std::size_t name = key.rfind('.', end) + 1;  // 0 without a group
+        group = key.substr(0, name);
+        column = key.substr(name, end - name);
+        entry = key.substr(end);
+    }
+    [[nodiscard]] std::string key(std::string_view end = "") const {
+        return fmt::format("{}{}{}{}", group, column, end, entry);
+    }
+    [[nodiscard]] std::string row() const {
+        return group.substr(0, std::max<std::size_t>(group.size(), 1) - 1) + entry;
+    }
+    /// Numbers of one kind share a table: as many parts of the group's name, in a list or not.
+    [[nodiscard]] std::pair<std::ptrdiff_t, bool> kind() const {
+        return {std::ranges::count(group, '.'), !entry.empty()};
+    }
+};
+
+/// Adds a row of a measurement for each of its rows in `positions`.
+void add_rows(LatexTable& table, const Measurement& m, std::span<const Position> positions,
+              std::span<const std::string> columns) {
     std::vector<std::string> unused;
+    const auto values = numbers_in(m.results, unused);
+    const auto errors = numbers_in(m.standard_error.value_or(Report()), unused);
+    const auto at = [](const auto& numbers, const std::string& key) {
+        const auto it = numbers.find(key);
+        return it == numbers.end() ? std::nan("") : it->second;
+    };
+    std::string source = m.source == "-" ? "standard input" : m.source;
+    if (m.set) source += fmt::format(", set {}", *m.set);
+    std::vector<std::string> rows;
+    for (Position cell : positions) {
+        const std::size_t before = rows.size();
+        if (values.contains(cell.key())) add_new(rows, cell.row());
+        if (rows.size() == before) continue;
+        auto& row = table.rows.emplace_back(std::vector{latex_text(source)});
+        if (table.words > 1) row.push_back(latex_text(cell.row()));
+        row.push_back(std::to_string(m.count));
+        for (const std::string& column : columns) {
+            cell.column = column;
+            row.push_back(latex_number(at(values, cell.key()), at(errors, cell.key())));
+            if (values.contains(cell.key("_low")) && values.contains(cell.key("_high")))
+                row.back() +=
+                    fmt::format(" [{}, {}]", latex_number(at(values, cell.key("_low")), 0),
+                                latex_number(at(values, cell.key("_high")), 0));
+        }
+    }
+}
+
+/// Tables of one analyzer's measurements: with a column for each number or, if these are too many,
+/// a table for each kind of numbers.
+std::string tables_of(std::span<const Measurement> all, const std::string& analyzer) {
+    constexpr std::size_t most = 6;  // numbers that fit beside each other
+    std::vector<std::string> keys;
     for (const Measurement& m : all)
         if (m.analyzer == analyzer) numbers_in(m.results, keys);
-    for (const std::string& key : keys) table.head.push_back(latex_text(key));
-    for (const Measurement& m : all) {
-        if (m.analyzer != analyzer) continue;
-        std::string source = m.source == "-" ? "standard input" : m.source;
-        if (m.set) source += fmt::format(", set {}", *m.set);
-        auto& row = table.rows.emplace_back();
-        row = {latex_text(source), std::to_string(m.count)};
-        const auto values = numbers_in(m.results, unused);
-        const auto errors = numbers_in(m.standard_error.value_or(Report()), unused);
-        const auto at = [](const auto& numbers, const std::string& key) {
-            const auto it = numbers.find(key);
-            return it == numbers.end() ? std::nan("") : it->second;
-        };
-        for (const std::string& key : keys)
-            row.push_back(latex_number(at(values, key), at(errors, key)));
-        if (m.standard_error) table.comments = {analyzer, "means +- standard errors"};
+    const auto is_end = [&](Position at, std::string_view end) {
+        if (!at.column.ends_with(end)) return false;
+        at.column.resize(at.column.size() - end.size());
+        return std::ranges::find(keys, at.key()) != keys.end();
+    };
+    std::map<std::pair<std::ptrdiff_t, bool>, std::vector<Position>> kinds;
+    for (const std::string& key : keys) {
+        const Position at(key, keys.size() <= most);
+        if (!is_end(at, "_low") && !is_end(at, "_high")) kinds[at.kind()].push_back(at);
     }
-    return table;
+    std::string text;
+    for (const auto& [kind, positions] : kinds) {
+        LatexTable table{.comments = {analyzer}, .head = {"set"}, .words = 1};
+        if (kind != std::pair(std::ptrdiff_t{0}, false)) table.head.emplace_back("part");
+        table.words = table.head.size();
+        table.head.emplace_back("$n$");
+        std::vector<std::string> columns;
+        for (const Position& at : positions) add_new(columns, at.column);
+        for (const std::string& column : columns) table.head.push_back(latex_text(column));
+        for (const Measurement& m : all) {
+            if (m.analyzer != analyzer) continue;
+            add_rows(table, m, positions, columns);
+            if (m.standard_error) table.comments = {analyzer, "means +- standard errors"};
+        }
+        text += table.text();
+    }
+    return text;
 }
 
 }  // namespace
@@ -139,7 +210,7 @@ std::string to_latex(std::span<const Measurement> measurements) {
     for (const Measurement& m : measurements) {
         if (std::ranges::find(analyzers, m.analyzer) != analyzers.end()) continue;
         analyzers.push_back(m.analyzer);
-        text += table_of(measurements, m.analyzer).text();
+        text += tables_of(measurements, m.analyzer);
     }
     return text;
 }

@@ -33,7 +33,9 @@ struct LatexTable {
 };
 
 /// A table for each analyzer, with a row for each measurement, and a column for each number and each
-/// entry of short lists; means have their standard errors.
+/// entry of short lists. Analyzers with more than 6 of these have tables with a row for each group
+/// of numbers, such as a sensitivity's input, and each entry of lists. Means have their standard
+/// errors, and numbers with an interval its ends.
 std::string to_latex(std::span<const Measurement> measurements);
 
 }  // namespace stipple

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "report/latex.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -70,6 +71,31 @@ TEST(Latex, ReportsAreATableForEachAnalyzer) {
         "% other\n\\begin{tabular}{lrrrr}\n\\toprule\nset & $n$ & mean & curve[0] & curve[1] "
         "\\\\\n\\midrule\n"
         "a\\_b.csv, set 1 & 8 & $0.5000$ & $1$ & $2$ \\\\\n\\bottomrule\n\\end{tabular}\n");
+}
+
+// More than six numbers would be too wide beside each other.
+TEST(Latex, ManyNumbersAreTablesWithARowForEachGroup) {
+    Measurement m{.analyzer = "sensitivity", .source = "y.csv", .count = 8, .domain = "unit-cube"};
+    Report y;
+    y.add("mean", 0.5).add("variance", 0.25);
+    for (const char* input : {"a", "b"})
+        y.add(input, Report()
+                         .add("first", 0.5)
+                         .add("first_low", 0.25)
+                         .add("first_high", 0.75)
+                         .add("total", 0.625));
+    m.results.add("y", y).add("list", Report::Curve{1, 2}).add("used", std::int64_t{8});
+    const std::string all = to_latex(std::vector{m});
+    const auto has = [&](const std::string& text) { EXPECT_THAT(all, ::testing::HasSubstr(text)); };
+    has("\\begin{tabular}{llrrr}");
+    has("set & $n$ & used \\\\\n\\midrule\ny.csv & 8 & $8$ \\\\\n");
+    has("set & part & $n$ & list \\\\\n\\midrule\n"
+        "y.csv & [0] & 8 & $1$ \\\\\ny.csv & [1] & 8 & $2$ \\\\\n");
+    has("set & part & $n$ & mean & variance \\\\\n\\midrule\n"
+        "y.csv & y & 8 & $0.5000$ & $0.2500$ \\\\\n");
+    has("set & part & $n$ & first & total \\\\\n\\midrule\n"
+        "y.csv & y.a & 8 & $0.5000$ [$0.2500$, $0.7500$] & $0.6250$ \\\\\n"
+        "y.csv & y.b & 8 & ");
 }
 
 }  // namespace stipple::testing::latex_test
