@@ -647,21 +647,60 @@ Drawing draw_chart(const Chart& chart, const PictureStyle& style, std::vector<Ar
     return std::move(drawing);
 }
 
-Bars histogram_of(const std::vector<double>& values, double low, double high, std::size_t bins) {
-    Bars bars{.heights = std::vector<double>(bins)};
-    const double width = (high - low) / static_cast<double>(bins);
-    for (std::size_t i = 0; i <= bins; ++i)
-        bars.edges.push_back(i == bins ? high : low + static_cast<double>(i) * width);
-    std::size_t inside = 0;
+namespace {
+
+Bars histogram_between(std::vector<double> edges, std::span<const double> values, bool log) {
+    Bars bars{.edges = std::move(edges)};
+    bars.heights.resize(bars.edges.size() - 1);
+    double inside = 0;
     for (const double value : values) {
-        if (!(value >= low && value <= high)) continue;
+        if (!(value >= bars.edges.front() && value <= bars.edges.back())) continue;
         ++inside;
-        const auto bin = static_cast<std::size_t>((value - low) / width);
-        ++bars.heights[std::min(bin, bins - 1)];
+        const auto above = std::ranges::upper_bound(bars.edges, value) - bars.edges.begin();
+        ++bars.heights[std::min(static_cast<std::size_t>(above), bars.heights.size()) - 1];
     }
-    for (double& height : bars.heights)
-        height /= std::max(1.0, static_cast<double>(inside)) * width;
+    for (std::size_t i = 0; i < bars.heights.size(); ++i) {
+        const double low = bars.edges[i];
+        const double high = bars.edges[i + 1];
+        bars.heights[i] /= std::max(1.0, inside) * (log ? std::log(high / low) : high - low);
+    }
     return bars;
+}
+
+}  // namespace
+
+Bars histogram_of(std::span<const double> values, double low, double high, std::size_t bins,
+                  bool log) {
+    const double reach = log ? std::log(high / low) : high - low;
+    std::vector<double> edges = {low};
+    for (std::size_t i = 1; i < bins; ++i) {
+        const double along = static_cast<double>(i) * (reach / static_cast<double>(bins));
+        edges.push_back(log ? low * std::exp(along) : low + along);
+    }
+    edges.push_back(high);
+    return histogram_between(std::move(edges), values, log);
+}
+
+bool are_whole(std::span<const double> values) {
+    constexpr double most = 1e15;  // halves of larger numbers are rounded
+    return std::ranges::all_of(values,
+                               [](double x) { return std::abs(x) < most && x == std::floor(x); });
+}
+
+Bars whole_histogram(std::span<const double> values, double low, double high, std::size_t most,
+                     bool log) {
+    constexpr std::size_t few = 20;
+    std::vector<double> edges = {std::ceil(low) - 0.5};
+    const double begin = edges[0];
+    const double end = std::floor(high) + 0.5;
+    double width =
+        (log ? std::log(end / begin) : end - begin) / static_cast<double>(std::max(few, most));
+    if (!log) width = std::ceil(width);
+    for (double i = 1; edges.back() < end; ++i) {
+        const double next = log ? std::floor(begin * std::exp(i * width)) + 0.5 : begin + i * width;
+        if (next > edges.back()) edges.push_back(std::min(next, end));
+    }
+    return histogram_between(std::move(edges), values, log);
 }
 
 }  // namespace stipple::plot

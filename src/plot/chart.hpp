@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -160,7 +161,17 @@ void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Posi
                  double width, const Theme& theme);
 
 /// Histogram with `bins` equal bins over [low, high]; heights are fractions divided by the bin
-/// width.
-Bars histogram_of(const std::vector<double>& values, double low, double high, std::size_t bins);
+/// width. If `log`, bins are equal in logarithms, and so are the widths.
+Bars histogram_of(std::span<const double> values, double low, double high, std::size_t bins,
+                  bool log = false);
+
+/// Whether all values are whole, and small enough for halves between them.
+bool are_whole(std::span<const double> values);
+
+/// Histogram of whole numbers from `low` to `high`, with edges between them: one bin for each or, if
+/// there are more than `most` and more than 20, bins with equally many, except for the last, which
+/// may have fewer. If `log`, bins are about equal in logarithms.
+Bars whole_histogram(std::span<const double> values, double low, double high, std::size_t most,
+                     bool log = false);
 
 }  // namespace stipple::plot

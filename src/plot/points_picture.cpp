@@ -671,28 +671,10 @@ std::size_t bins_of(std::size_t n) {
 /// Whether a coordinate has whole numbers as outcomes: all are whole, and they follow no density
 /// that would be uniform in the cube.
 bool is_whole(const PointsPicture& picture, std::size_t k) {
-    constexpr double most = 1e15;  // halves of larger numbers are rounded
     const PointSet& first = *picture.sets[0];
-    if (is_log(picture, k) || (first.domain->even() && !without_domain(first))) return false;
-    const auto whole = [](double x) { return std::abs(x) < most && x == std::floor(x); };
-    return std::ranges::all_of(picture.sets, [&](const PointSet* set) {
-        return std::ranges::all_of(coordinate(*set, k), whole);
-    });
-}
-
-/// Histogram of whole numbers from `low` to `high`: one bin for each or, if there are many, bins
-/// with equally many, except for the last, which may have fewer.
-Bars whole_histogram(const std::vector<double>& values, double low, double high) {
-    constexpr std::size_t few = 20;
-    const double end = std::floor(high) + 0.5;
-    const double begin = std::ceil(low) - 0.5;
-    const auto most = static_cast<double>(std::max(few, bins_of(values.size())));
-    const double width = std::ceil((end - begin) / most);
-    const double bins = std::ceil((end - begin) / width);
-    Bars bars = histogram_of(values, begin, begin + bins * width, static_cast<std::size_t>(bins));
-    bars.edges.back() = end;
-    bars.heights.back() *= width / (end - begin - (bins - 1) * width);
-    return bars;
+    if (first.domain->even() && !without_domain(first)) return false;
+    return std::ranges::all_of(picture.sets,
+                               [&](const PointSet* set) { return are_whole(coordinate(*set, k)); });
 }
 
 /// Histogram of a categorical coordinate: frequencies of its levels as bars at 1, 2, ...
@@ -717,16 +699,10 @@ ChartPanel histogram_panel(const PointsPicture& picture, const Box& box, std::si
     ChartPanel panel{.x_name = shown_names(picture)[k], .y_name = "density", .from_zero = true};
     panel.log_x = is_log(picture, k);
     if (panel.log_x) panel.y_name += fmt::format(" of ln {}", panel.x_name);
-    const bool whole = is_whole(picture, k);
-    const auto scaled = [&](double x) { return panel.log_x ? std::log(x) : x; };
+    const auto histogram = is_whole(picture, k) ? whole_histogram : histogram_of;
     for (std::size_t s = 0; s < picture.sets.size(); ++s) {
-        std::vector<double> values = coordinate(*picture.sets[s], k);
-        std::ranges::transform(values, values.begin(), scaled);
-        Bars bars = whole ? whole_histogram(values, box.low[k], box.high[k])
-                          : histogram_of(values, scaled(box.low[k]), scaled(box.high[k]),
-                                         bins_of(values.size()));
-        if (panel.log_x)
-            for (double& edge : bars.edges) edge = std::exp(edge);
+        const std::vector<double> values = coordinate(*picture.sets[s], k);
+        Bars bars = histogram(values, box.low[k], box.high[k], bins_of(values.size()), panel.log_x);
         bars.name = picture.names[s];
         panel.bars.push_back(std::move(bars));
     }

@@ -560,20 +560,23 @@ Chart number_histogram(Measurements ms, const std::string& key) {
             values.push_back(*value);
     const auto [low, high] = std::ranges::minmax(values);
     require_shown(low, high);
-    const auto shown = visible_range(low, high);
+    const bool whole = are_whole(values);
+    const auto shown = whole ? std::pair(low, high) : visible_range(low, high);
     // Sturges' rule for the bin width, suitable for about ten to some thousand values.
     const auto bins =
         static_cast<std::size_t>(std::ceil(std::log2(static_cast<double>(values.size())))) + 3;
-    Bars bars = histogram_of(values, shown.first, shown.second, bins);
-    const double width = bars.edges[1] - bars.edges[0];
-    for (double& height : bars.heights)
-        height = std::round(height * width * static_cast<double>(values.size()));
+    Bars bars =
+        (whole ? whole_histogram : histogram_of)(values, shown.first, shown.second, bins, false);
+    for (std::size_t i = 0; i < bars.heights.size(); ++i)
+        bars.heights[i] = std::round(bars.heights[i] * static_cast<double>(values.size()) *
+                                     (bars.edges[i + 1] - bars.edges[i]));
     Chart chart = titled(capitalised(words_of(ms[0].analyzer)), ms);
     chart.subtitle = noted(chart.subtitle, fmt::format("{} sets", values.size()));
     chart.panels.push_back({.x_name = key == "value" ? words_of(ms[0].analyzer) : words_of(key),
                             .y_name = "sets",
                             .bars = {std::move(bars)},
                             .rug = values.size() <= 100 ? values : std::vector<double>{},
+                            .whole_x = whole,
                             .from_zero = true});
     return chart;
 }

@@ -384,6 +384,16 @@ TEST(ReportCharts, NumbersOfOneSizeAreAHistogramThatCountsThem) {
     EXPECT_DOUBLE_EQ(bars.edges.front(), 0.1);
     EXPECT_DOUBLE_EQ(bars.edges.back(), 0.16);
     EXPECT_EQ(chart_of(std::vector{number(1, 8), number(1, 8)}).panels.size(), 1U);
+    // Whole numbers have a bar each or, if there are many, each bar has equally many.
+    for (const int most : {13, 50}) {
+        ms.clear();
+        for (int i = 0; i < 2 * most; ++i) ms.push_back(number(i % most, 64));
+        const Bars whole = chart_of(ms).panels.at(0).bars.at(0);
+        EXPECT_EQ(whole.edges.front(), -0.5);
+        for (std::size_t i = 0; i + 1 < whole.heights.size(); ++i)
+            EXPECT_EQ(whole.heights[i], most == 13 ? 2 : 6);
+        EXPECT_EQ(whole.heights.back(), most == 13 ? 2 : 4);
+    }
 }
 
 TEST(ReportCharts, SaysWhatCanBeDrawnWhereNothingCan) {
@@ -431,7 +441,7 @@ TEST(Chart, LongCurvesKeepTheirExtremes) {
 }
 
 TEST(Chart, HistogramsIntegrateToOne) {
-    const Bars bars = histogram_of({0, 0.1, 0.25, 0.5, 0.999, 1}, 0, 1, 4);
+    const Bars bars = histogram_of(std::vector{0.0, 0.1, 0.25, 0.5, 0.999, 1.0}, 0, 1, 4);
     EXPECT_THAT(bars.edges, ElementsAre(0, 0.25, 0.5, 0.75, 1));
     EXPECT_THAT(bars.heights, ElementsAre(4 * 2 / 6.0, 4 * 1 / 6.0, 4 * 1 / 6.0, 4 * 2 / 6.0));
 }

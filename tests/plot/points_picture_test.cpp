@@ -207,6 +207,8 @@ TEST(PointsPicture, LogarithmicAxesAreEvenInPowers) {
     const PointSet zero = points_of({{0, 1}, {10, 2}});
     EXPECT_FALSE(is_positive({{&zero}}, 0));
     // A histogram has bins of equal width on the axis, and counts each value.
+    const PointSet parts = points_of({{1.5, 1}, {10, 2}, {100, 3}});
+    picture.sets = {&parts};
     const Chart chart = histogram_chart(picture);
     const Bars& bars = chart.panels[0].bars[0];
     EXPECT_TRUE(chart.panels[0].log_x);
@@ -248,6 +250,20 @@ TEST(PointsPicture, HistogramBarsOfWholeNumbersHoldEquallyMany) {
     for (const double height : many.heights) EXPECT_NEAR(height, 1.0 / 52, 1e-12);
     EXPECT_EQ(many.edges[1] - many.edges[0], 3);
     EXPECT_EQ(many.edges.back(), 52.5);
+    // On a log axis, whole numbers have equal heights relative to 1 / x, which is their density.
+    PointSet wide(8191, 1);
+    for (std::size_t i = 0; i < wide.count(); ++i)
+        wide[i][0] = std::floor(std::exp2(13 * (static_cast<double>(i) + 0.5) / 8191));
+    wide.domain = domain_named("integers:low=1,high=8191", 1);
+    PointsPicture picture = picture_of({&wide});
+    picture.log = {true};
+    const Bars bars = histogram_chart(picture).panels.at(0).bars.at(0);
+    EXPECT_EQ(bars.edges.front(), 0.5);
+    EXPECT_EQ(bars.edges.back(), 8191.5);
+    for (std::size_t i = 0; i < bars.heights.size(); ++i) {
+        EXPECT_EQ(bars.edges[i], std::floor(bars.edges[i]) + 0.5);
+        EXPECT_NEAR(bars.heights[i] * std::log(8192), 1, bars.edges[i] > 20 ? 0.05 : 0.5);
+    }
     // The corners of the unit cube are not numbers of a discrete distribution.
     EXPECT_EQ(bars_of("unit-cube", 0, 2, 100).edges.front(), 0);
 }
