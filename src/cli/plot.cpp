@@ -74,6 +74,7 @@ struct Loaded {
     std::string typed;                  ///< command or spec that made it; empty if unknown
     std::size_t left_out = 0;           ///< number of rows with missing numbers
     std::vector<bool> log = {};         ///< whether each coordinate is a parameter on a log scale
+    std::vector<std::string> units = {};
 };
 
 /// Title for a picture of points: "halton", "sobol, disk"; if the generator is unknown, the file's
@@ -309,6 +310,7 @@ class Plot {
         Provenance& meta = set.points.provenance;
         const auto before = coordinate_names(set.points.dimension(), meta);
         set.log = page::log_axes(set.points);
+        if (axes_.empty()) set.units = page::units_of(set.points);
         if (axes_.empty() || charted_ != nullptr || chart_ == "distances") return;
         if (axes_.size() != before.size())
             fail(ErrorKind::usage, "--axes: {} names for points of {} coordinates", axes_.size(),
@@ -772,6 +774,7 @@ class Plot {
         if (chart_ == "points") picture.marking = plot::Marking::disks;
         if (chart_ == "density") picture.marking = plot::Marking::density;
         picture.pairs = chart_ == "pairs";
+        picture.units = sets_[0].units;
         for (std::size_t k = 0; k < d; ++k) picture.log.push_back(is_log(k, picture.sets));
         picture.title = sets_[0].title;
         if (sets_.size() > 1 && different_titles()) picture.title = join(picture.names, ", ");

@@ -99,21 +99,35 @@ Json file_of(const std::string& domain) {
     return file.is_object() && file.contains("parameters") ? file : Json();
 }
 
+/// The parameter of each coordinate in the file; an empty object for other coordinates.
+std::vector<Json> parameters_of(const PointSet& points) {
+    const Json file = file_of(points.domain->spec());
+    std::vector<Json> found;
+    for (const std::string& name : coordinate_names(points.dimension(), points.provenance)) {
+        found.push_back(Json::object());
+        for (const Json& parameter : file.is_null() ? Json() : file["parameters"])
+            if (words_of(parameter.value("name", Json(""))) == name) found.back() = parameter;
+    }
+    return found;
+}
+
 }  // namespace
 
 bool is_experiment(const std::string& domain) { return domain.starts_with("parameters:"); }
 
 std::vector<bool> log_axes(const PointSet& points) {
-    const Json file = file_of(points.domain->spec());
     std::vector<bool> logs;
-    for (const std::string& name : coordinate_names(points.dimension(), points.provenance))
-        logs.push_back(std::ranges::any_of(
-            file.is_null() ? Json() : file["parameters"], [&](const Json& parameter) {
-                return words_of(parameter.value("name", Json(""))) == name &&
-                       (parameter.value("scale", Json()) == "log" ||
-                        parameter.value("distribution", Json()) == "log-uniform");
-            }));
+    for (const Json& parameter : parameters_of(points))
+        logs.push_back(parameter.value("scale", Json()) == "log" ||
+                       parameter.value("distribution", Json()) == "log-uniform");
     return logs;
+}
+
+std::vector<std::string> units_of(const PointSet& points) {
+    std::vector<std::string> units;
+    for (const Json& parameter : parameters_of(points))
+        units.push_back(words_of(parameter.value("unit", Json(""))));
+    return units;
 }
 
 std::string parameter_table(const std::string& domain) {

@@ -16,6 +16,9 @@ bool is_experiment(const std::string& domain);
 /// Whether each coordinate of points is a parameter on a log scale, or log-uniform.
 std::vector<bool> log_axes(const PointSet& points);
 
+/// The unit of each coordinate; empty if it is no parameter with a unit.
+std::vector<std::string> units_of(const PointSet& points);
+
 /// Table of the parameters: names, units and possible values; followed by their constraints and
 /// correlations. Empty for other domains.
 std::string parameter_table(const std::string& domain);

@@ -736,6 +736,8 @@ std::vector<std::string> shown_names(const PointsPicture& picture) {
     const PointSet& first = *picture.sets[0];
     auto names = coordinate_names(first.dimension(), first.provenance);
     const Box box = whole_box(picture.sets);
+    for (std::size_t k = 0; k < std::min(names.size(), picture.units.size()); ++k)
+        if (!picture.units[k].empty()) names[k] += fmt::format(" ({})", picture.units[k]);
     for (std::size_t k = 0; k < names.size(); ++k)
         if (const std::string flaw = flaw_of_range(box.low[k], box.high[k]); !flaw.empty())
             names[k] += fmt::format(" ({})", flaw);

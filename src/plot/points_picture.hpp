@@ -62,7 +62,8 @@ struct PointsPicture {
     bool pairs = false;  ///< draws three coordinates as pairs
     /// Whether each coordinate has a logarithmic axis; empty: none has.
     std::vector<bool> log = {};
-    std::size_t most_disks = 20'000;  ///< limit beyond which pixels replace disks
+    std::vector<std::string> units = {};  ///< unit of each coordinate, or empty; may be empty
+    std::size_t most_disks = 20'000;      ///< limit beyond which pixels replace disks
     std::size_t most_coordinates = most_pair_coordinates;  ///< limit for coordinates drawn in pairs
 };
 
@@ -79,7 +80,7 @@ Box shown_box(std::span<const PointSet* const> sets);
 /// Whether all numbers of a coordinate that a picture shows are positive.
 bool is_positive(std::span<const PointSet* const> sets, std::size_t k);
 
-/// Names of the coordinates, with notes on ranges too narrow to be shown.
+/// Names of the coordinates, with units, and notes on ranges too narrow to be shown.
 std::vector<std::string> shown_names(const PointsPicture& picture);
 
 /// Texts for both ends of a coordinate: numbers, or the first and last level of a categorical one.

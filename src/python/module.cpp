@@ -339,6 +339,7 @@ plot::Drawing picture(const std::vector<std::pair<std::string, Given>>& given, d
         picture.names.push_back(given[i].first);
     }
     picture.log = page::log_axes(sets[0]);
+    picture.units = page::units_of(sets[0]);
     for (std::size_t k = 0; k < picture.log.size(); ++k)
         picture.log[k] = picture.log[k] && plot::is_positive(picture.sets, k);
     return released(how, [&](const RunContext& run) {

@@ -61,7 +61,10 @@ TEST_F(Parameters, AreReadBackByEveryFormatAndVerb) {
     expect_refusal(box.run({"analyze", "serial", "c.json"}), 3,
                    "c.json: serial needs coordinates that preserve probability; parameters does "
                    "not have them");
-    EXPECT_THAT(text("stipple plot c.json -f svg"), HasSubstr("length"));
+    EXPECT_THAT(text("stipple plot c.json -f svg"), HasSubstr("length (mm)"));
+    EXPECT_THAT(text("stipple plot c.json -f svg --chart histogram"),
+                HasSubstr("density of ln length (mm)"));
+    EXPECT_THAT(text("stipple plot c.json -f svg --axes L,n,k"), Not(HasSubstr("mm)")));
 }
 
 TEST_F(Parameters, WordsWithoutParametersAreNumberedByTheirLetters) {
