@@ -84,11 +84,11 @@ std::vector<std::string> parse_names(std::string_view text, std::string_view opt
     return *names;
 }
 
-std::vector<std::string> replace_names(std::vector<std::string>& names) {
+std::vector<std::string> replace_names(std::vector<std::string>& names, bool table) {
     const auto defaults = coordinate_names(names.size());
     std::vector<std::string> sentences;
     for (std::size_t c = 0; c < names.size(); ++c) {
-        if (is_name(names[c], true)) continue;
+        if (is_name(names[c], table)) continue;
         const std::string refused = std::exchange(names[c], "");
         std::string name = defaults[c];
         while (std::ranges::find(names, name) != names.end()) name += '_';
@@ -96,8 +96,8 @@ std::vector<std::string> replace_names(std::vector<std::string>& names) {
             refused.empty()
                 ? fmt::format("a column has no name; it is called {}", name)
                 : fmt::format(
-                      "the column {} is called {}; a name is printable, is no number or 'set', "
-                      "and has no quotation marks nor a leading #, [ or {{",
+                      "the column {} is called {}; a name is printable, no number and not set, pdf "
+                      "or weight, and has no quotation marks nor a leading #, [ or {{",
                       shown(refused), name));
         names[c] = std::move(name);
     }
@@ -135,7 +135,7 @@ Columns choose_columns(std::vector<std::string> names, std::size_t width,
     }
     // Default names (x, y, ...) carry no meaning: columns with such names are taken in order.
     auto kept = names;
-    replace_names(kept);
+    replace_names(kept, true);
     if (options.columns.empty() && missing != options.expected.end() && !kept_names(kept).empty())
         fail_with_hint(ErrorKind::input, suggest(*missing, names), "{}: there is no column '{}'",
                        place, *missing);
@@ -178,9 +178,8 @@ Columns choose_columns(std::vector<std::string> names, std::size_t width,
     return columns;
 }
 
-std::vector<std::string> kept_names(std::vector<std::string> names, bool table) {
-    const auto kept = [table](const std::string& name) { return is_name(name, table); };
-    if (names == coordinate_names(names.size()) || !std::ranges::all_of(names, kept)) return {};
+std::vector<std::string> kept_names(std::vector<std::string> names) {
+    if (names == coordinate_names(names.size())) names.clear();
     return names;
 }
 

@@ -37,9 +37,8 @@ struct Columns {
     [[nodiscard]] bool has(std::size_t wanted) const;
 };
 
-/// Coordinate names to store in provenance. Empty if they are the default names, or if a header
-/// with them would not be read back. Names pdf and weight are allowed only if `table`.
-std::vector<std::string> kept_names(std::vector<std::string> names, bool table = false);
+/// Coordinate names to store in provenance: empty if they are the default names.
+std::vector<std::string> kept_names(std::vector<std::string> names);
 
 /// Whether a text can be a level name: not a number, and unchanged by writing and reading.
 bool is_word(const std::string& text);
@@ -50,9 +49,9 @@ std::optional<std::vector<std::string>> csv_fields(std::string_view line);
 /// Parses the names in an option's text, a line of CSV. @throws Error(usage)
 std::vector<std::string> parse_names(std::string_view text, std::string_view option);
 
-/// Replaces names that kept_names() cannot keep, even of a table, by the default name of the column.
-/// Returns a sentence for each.
-std::vector<std::string> replace_names(std::vector<std::string>& names);
+/// Replaces names that would not be read back from a header by the default name of the column, pdf
+/// and weight only unless `table`. Returns a sentence for each.
+std::vector<std::string> replace_names(std::vector<std::string>& names, bool table);
 
 /// Index of the column with this name or, failing that, with this number counted from 1. `place`
 /// and `option` are for the message. @throws Error(usage) if no column matches

@@ -60,10 +60,10 @@ bool take(const Json& value, std::vector<std::string>& texts) {
     return true;
 }
 
-/// Parses column names; drops them all if one could not be in a header, or if they are the
-/// defaults.
+/// Parses column names; drops the defaults, and replaces names that could not be in a header.
 bool take_columns(const Json& value, std::vector<std::string>& names) {
     const bool texts = take(value, names);
+    replace_names(names, false);
     names = kept_names(std::move(names));
     return texts;
 }

@@ -52,18 +52,21 @@ namespace {
 
 using Given = std::tuple<Array, std::string, std::string>;  ///< rows, domain, provenance as JSON
 
-/// A set with its previous provenance. That of a table is the provenance of its inputs.
+/// A set with its previous provenance. That of a table is the provenance of its inputs. Shows notes
+/// on names of columns that are replaced.
 PointSet set_of(const Given& given, bool table = false) {
     const auto& [rows, domain, meta] = given;
     PointSet points = points_of(rows, table ? "unit-cube" : domain);
     const Json known = meta.empty() ? Json::object() : parse_json(meta);
     points.provenance = io::provenance_from(known);
     points.provenance.domain = domain;
-    if (table) {
-        points.provenance.columns =
-            io::kept_names(known.value("columns", std::vector<std::string>()), true);
-        return points;
+    const Json columns = known.value("columns", Json());
+    if (columns.is_array() && std::ranges::all_of(columns, &Json::is_string)) {
+        auto names = columns.get<std::vector<std::string>>();
+        show(io::replace_names(names, table));
+        points.provenance.columns = io::kept_names(std::move(names));
     }
+    if (table) return points;
     points.provenance.count = points.count();
     points.provenance.dimension = points.dimension();
     complete(points.provenance);

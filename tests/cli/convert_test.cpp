@@ -64,12 +64,28 @@ TEST(Convert, SaysWhichNamesItReplaces) {
     EXPECT_THAT(
         converted("a,\"b \"\"q\"\"\",c"),
         AllOf(StartsWith("a,y,c; stipple: note: r.csv: the column 'b \"\"q\"\"' is called y"),
-              HasSubstr("a name is printable, is no number or 'set', and has no quotation")));
+              HasSubstr("a name is printable, no number and not set, pdf or weight, and has")));
     EXPECT_EQ(converted("a,,c"),
               "a,y,c; stipple: note: r.csv: a column has no name; it is called y\n");
     EXPECT_THAT(converted("y,[m],set"),
                 AllOf(StartsWith("y,y_,z; "), HasSubstr("'[m]' is called y_"),
                       HasSubstr("'set' is called z")));
+}
+
+TEST(Convert, ReplacesNamesOfAllFormatsSingly) {
+    const Sandbox box;
+    box.write("r.json", R"([{"a":1,"inf":2,"c":3},{"a":4,"inf":5,"c":6}])");
+    box.write("r.jsonl", "{\"columns\":[\"a\",\"inf\",\"c\"]}\n[1,2,3]\n[4,5,6]\n");
+    for (const std::string file : {"r.json", "r.jsonl"}) {
+        const Outcome read = box.run({"convert", file, "-f", "csv"});
+        EXPECT_EQ(read.out, "a,y,c\n1,2,3\n4,5,6\n");
+        EXPECT_THAT(read.err, StartsWith("stipple: note: " + file +
+                                         ": the column 'inf' is called y; a name is printable"));
+    }
+    box.write("w.csv", "a,weight\n1,2\n");
+    const Outcome picked = box.run({"convert", "w.csv", "--column", "a,weight", "-f", "csv"});
+    EXPECT_EQ(picked.out, "a,y\n1,2\n");
+    EXPECT_THAT(picked.err, HasSubstr("the column 'weight' is called y"));
 }
 
 TEST(Convert, ReadsLevelsThatLookLikeNumbers) {

@@ -274,6 +274,19 @@ def test_names_that_files_cannot_hold_are_refused(names, name, tmp_path):
     assert (tmp_path / "a.csv").read_text() == "x,y\n0.5,u\n0.25,v\n"
 
 
+def test_names_that_cannot_be_kept_are_replaced_singly(library):
+    _, frame = library
+    table = frame({"length": [0.1, 0.5, 0.9, 0.3], "nan": [0.2, 0.3, 0.4, 0.5]})
+    with pytest.warns(stipple.Note, match="the column 'nan' is called y; a name is"):
+        picture = stipple.plot(table).svg
+    assert ">length<" in picture and "nan" not in picture
+    runs = {"width": list(np.linspace(0, 1, 64)), "set": list(np.linspace(0, 1, 64) ** 2 % 0.3),
+            "cost": list(np.linspace(1, 2, 64))}
+    with pytest.warns(stipple.Note, match="the column 'set' is called y; a name is"):
+        report = stipple.analyze("sensitivity", frame(runs))
+    assert {"width", "y"} <= {*report.cost.keys()}
+
+
 def test_words_become_numbers_with_a_note_only(library, tmp_path):
     _, frame = library
     table = frame({"m": ["u", "v"], "n": [1.0, 2.0]})

@@ -673,8 +673,9 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
     head.columns = choose_columns(names, fields.size(), options,
                                   fmt::format("{}:{}", text.source(), head.dialect.model_line));
     head.top.provenance.density_column = head.columns.density;
-    if (!options.all_columns) head.replaced = replace_names(head.columns.names);
-    head.top.provenance.columns = kept_names(head.columns.names, options.gaps);
+    head.replaced = replace_names(head.columns.names, options.gaps);
+    if (options.all_columns) head.replaced.clear();
+    head.top.provenance.columns = kept_names(head.columns.names);
     head.body = head.names ? head.top.next : head.top.first;
     if (head.names) take_words(head, text);
     head.dialect.comma = has_decimal_comma(text, head);

@@ -320,7 +320,7 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
     const SourceText text(bytes, options.source);
     Reader reader(text, run);
     reader.read();
-    const Columns columns = json_columns(text, reader.head, reader.width, options);
+    const Columns columns = json_columns(text, reader.head, reader.width, options, run);
     reader.require_numbers(columns);
     std::vector<double> numbers = keep_coordinates(std::move(reader.numbers), columns);
     std::vector<PointSet> sets =

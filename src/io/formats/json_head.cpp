@@ -76,7 +76,7 @@ Json parse_piece(const SourceText& text, std::string_view piece) {
 }
 
 Columns json_columns(const SourceText& text, JsonHead& head, std::size_t width,
-                     const ReadOptions& options) {
+                     const ReadOptions& options, const RunContext& run) {
     if (head.columns.empty() && head.provenance.columns.size() == width)
         head.columns = head.provenance.columns;
     if (!head.columns.empty() && head.columns.size() != width)
@@ -94,6 +94,8 @@ Columns json_columns(const SourceText& text, JsonHead& head, std::size_t width,
     }
     Columns columns = choose_columns(head.columns, width, options, text.source());
     head.provenance.density_column = columns.density;
+    for (const std::string& sentence : replace_names(columns.names, options.gaps))
+        run.notify(fmt::format("{}: {}", text.source(), sentence));
     head.provenance.columns = kept_names(columns.names);
     return columns;
 }

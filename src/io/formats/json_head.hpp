@@ -41,10 +41,10 @@ void take_key(const SourceText& text, const char* at, std::string_view key,
 nlohmann::ordered_json parse_piece(const SourceText& text, std::string_view piece);
 
 /// Assigns roles to the `width` columns of the points, and records density and coordinate names in
-/// the provenance.
+/// the provenance. Notifies of names that are replaced.
 /// @throws Error(input) if columns or dimension in the head contradict `width`
 Columns json_columns(const SourceText& text, JsonHead& head, std::size_t width,
-                     const ReadOptions& options);
+                     const ReadOptions& options, const RunContext& run);
 
 /// Compares the counts in the head, if given, with those found. @throws Error(input) if they differ
 void check_counts(const SourceText& text, const JsonHead& head,

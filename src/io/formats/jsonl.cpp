@@ -60,7 +60,7 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
     const char* const model = first_row(text, top.first);
     const std::string_view row = line_at(text, model);
     const auto width = static_cast<std::size_t>(std::ranges::count(row, ',')) + 1;
-    const Columns columns = json_columns(text, head, width, options);
+    const Columns columns = json_columns(text, head, width, options, run);
     const Dialect dialect{.separator = ',', .brackets = true, .model_line = text.line_of(model)};
     Rows rows = read_rows(text, top.first, columns, dialect, run);
 

@@ -201,7 +201,7 @@ def _order(names: list[str], wanted: list[str | None], name: str) -> list[int] |
     if not missing:
         others = (k for k, key in enumerate(names) if key not in wanted)
         return [next(others) if key is None else names.index(key) for key in wanted]
-    if _frames.kept_names(names):
+    if _frames.are_named(names):
         raise Error(f"{name} has no column {missing[0]!r}, as the domain has; its columns are "
                     f"{', '.join(names)}", "input")
     return [*range(len(names))] if len(names) == len(wanted) else None
@@ -251,7 +251,7 @@ def alike(sets: list[tuple[str, Given]]) -> list[Given]:
     """Sets that are shown or written together: columns in the order of the first set, and equal
     words with equal numbers."""
     metas = [json.loads(one[2]) if one[2] else {} for _, one in sets]
-    named = [k for k, meta in enumerate(metas) if _frames.kept_names(meta.get("columns") or [])]
+    named = [k for k, meta in enumerate(metas) if _frames.are_named(meta.get("columns") or [])]
     levels: dict[str, list[str]] = {}
     for k in sorted(named, key=lambda k: "parameters" not in sets[k][1][1]):
         for key, words in (metas[k].get("levels") or {}).items():

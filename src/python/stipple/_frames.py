@@ -72,9 +72,9 @@ def is_word(text: str) -> bool:
     return text.isprintable() and _stipple.is_word(text)
 
 
-def kept_names(names: list[str]) -> list[str]:
-    """Names that carry a meaning; none if they are the default ones, or if one is no name."""
-    return names if names != default_names(len(names)) and all(map(is_word, names)) else []
+def are_named(names: list[str]) -> bool:
+    """Whether a name carries a meaning: it is none that a file replaces, and not the default one."""
+    return any(is_word(name) and name != usual for name, usual in zip(names, default_names(len(names))))
 
 
 def recorded(frame: Any) -> tuple[str, list[str]] | None:

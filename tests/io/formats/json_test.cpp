@@ -210,9 +210,12 @@ TEST(Json, KeepsTheNamesOfColumns) {
     EXPECT_THAT(text, ::testing::HasSubstr(R"("columns":["age","income"])"));
     EXPECT_EQ(read_as("json", text).at(0).provenance.columns, layout.provenance.columns);
     EXPECT_EQ(read_as("json", text, {.columns = {"income"}}).at(0), points_of({{0.5}, {-1e-7}}));
-    // Names that are not valid in headers.
+    // Names that are not valid in headers are replaced, singly.
     layout.provenance.columns = {"set", "\x1b[31m"};
     EXPECT_EQ(read_as("json", written("json", {two}, layout)).at(0).provenance.columns.size(), 0U);
+    layout.provenance.columns = {"age", "nan"};
+    EXPECT_EQ(read_as("json", written("json", {two}, layout)).at(0).provenance.columns,
+              (std::vector<std::string>{"age", "y"}));
 }
 
 }  // namespace stipple::testing::json_test
