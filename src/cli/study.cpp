@@ -117,7 +117,7 @@ std::string command_of(const StudyRequest& request) {
 }
 
 /// The means as a wide table, in the format of the request.
-std::string wide_text(std::span<const MeanRow> means, const StudyRequest& request) {
+std::string wide_text(std::vector<MeanRow> means, const StudyRequest& request) {
     const StudyFormat format = study_format(request, output_of(request));
     if (format == StudyFormat::latex) return wide_latex(means, command_of(request));
     const TableStyle style = style_of(format);
@@ -125,26 +125,64 @@ std::string wide_text(std::span<const MeanRow> means, const StudyRequest& reques
     return above + wide_table(means, style);
 }
 
-/// The table of a study, if the only input is such a file.
-std::optional<std::vector<MeanRow>> means_of_input(const StudyRequest& request,
-                                                   const RunContext& run) {
-    std::error_code none;
-    if (request.inputs.size() != 1 || !request.wide || request.has("generators") ||
-        !std::filesystem::exists(request.inputs[0], none))
-        return std::nullopt;
-    const std::string& path = request.inputs[0];
-    refuse_options(request, "analyze,config,confidence,count,dimension,seed,seeds,warp",
-                   "does not apply to the table of a study");
-    auto means = read_means(io::read_bytes(path, run), io::source_name(path), run);
-    if (!means) fail(ErrorKind::input, "{}: is not the table of a study", path);
-    note_unfinished(path, run);
-    return means;
-}
-
 /// Path beside the table: study.csv -> study.summary.csv.
 std::string beside(const std::string& path, const std::string& what) {
     const std::string extension = std::filesystem::path(path).extension().string();
     return path.substr(0, path.size() - extension.size()) + "." + what + extension;
+}
+
+/// The two tables of a summary.
+struct SummaryText {
+    TableStyle style;
+    std::string preface;
+    std::string means;
+    std::string pairs;
+
+    SummaryText(const StudySummary& summary, const SummaryOptions& options,
+                const StudyRequest& request, const RunContext& run)
+        : style(style_of(study_format(request, output_of(request)))),
+          preface(request.meta ? study_preface(style, command_of(request)) : ""),
+          means(summary.means(style, options, run)),
+          pairs(summary.comparisons(style, options, run)) {}
+
+    /// What separates tables in one stream.
+    [[nodiscard]] std::string gap() const { return style == TableStyle::csv ? "\n" + preface : ""; }
+    void write_beside(const std::string& path) const {
+        write_text(beside(path, "summary"), preface + means);
+        write_text(beside(path, "comparisons"), preface + pairs);
+    }
+};
+
+/// Whether the only input is a file: the table of a study that is not to be run.
+bool reads_table(const StudyRequest& request) {
+    std::error_code none;
+    return request.inputs.size() == 1 && (request.wide || request.summary) &&
+           !request.has("generators") && std::filesystem::exists(request.inputs[0], none);
+}
+
+/// Writes the means of a table, or its summary.
+void summarize_table(const StudyRequest& request, const RunContext& run) {
+    const std::string& path = request.inputs[0];
+    refuse_options(request,
+                   "analyze,config,count,curves,dimension,keys,overwrite,parameters,resume,seed,"
+                   "seeds,time-limit,warp",
+                   "does not apply to the table of a study");
+    auto study = read_study(io::read_bytes(path, run), io::source_name(path), run);
+    if (!study) fail(ErrorKind::input, "{}: is not the table of a study", path);
+    note_unfinished(path, run);
+    const std::string to = output_of(request);
+    if (auto* means = std::get_if<std::vector<MeanRow>>(&*study)) {
+        refuse_options(request, "summary,confidence", "does not apply to the summary of a study");
+        return write_text(to, wide_text(*std::move(means), request));
+    }
+    const auto& rows = std::get<StudySummary>(*study);
+    SummaryOptions options = summary_options(request, rows.first_seed());
+    if (request.wide) options.resamples = 0;
+    if (request.wide) return write_text(to, wide_text(rows.mean_rows(options, run), request));
+    const SummaryText text(rows, options, request, run);
+    if (extension_of(to).empty())
+        return write_text(to, text.preface + text.means + text.gap() + text.pairs);
+    text.write_beside(to);
 }
 
 std::string long_time(double seconds) {
@@ -232,16 +270,11 @@ class Study {
         }
         if (!request_.summary) return file.finish("", run);
         file.listen(run);
-        const auto means = summary_.means(table_.style(), summary_options_, run);
-        const auto pairs = summary_.comparisons(table_.style(), summary_options_, run);
-        if (file.is_stream()) {
-            const auto gap = table_.style() == TableStyle::csv ? "\n" + table_.preface() : "";
-            file.finish(gap + means + gap + pairs, run);
-            return;
-        }
+        const SummaryText text(summary_, summary_options_, request_, run);
+        if (file.is_stream())
+            return file.finish(text.gap() + text.means + text.gap() + text.pairs, run);
         file.finish("", run);
-        write_text(beside(path_, "summary"), table_.preface() + means);
-        write_text(beside(path_, "comparisons"), table_.preface() + pairs);
+        text.write_beside(path_);
     }
 
     /// Removes the previous summary, which could be mistaken for one of the new study.
@@ -293,8 +326,8 @@ class Study {
 }  // namespace
 
 int StudyRequest::perform(Session& session) const {
-    if (const auto means = means_of_input(*this, session.run())) {
-        write_text(output_of(*this), wide_text(*means, *this));
+    if (reads_table(*this)) {
+        summarize_table(*this, session.run());
         return 0;
     }
     Ranks& ranks = launched("study", session.run());

@@ -226,11 +226,10 @@ std::string StudySummary::comparisons(TableStyle style, const SummaryOptions& op
 
 namespace {
 
-/// Means over the rows of a study's table; a summary after them is ignored.
+/// Rows of a study's table; a summary after them is ignored.
 /// @param begin index of the first row
-std::vector<MeanRow> means_of_rows(std::span<const std::string_view> lines, std::size_t begin,
-                                   const StudyTable& table, const std::string& source,
-                                   const RunContext& run) {
+StudySummary rows_in(std::span<const std::string_view> lines, std::size_t begin,
+                     const StudyTable& table, const std::string& source, const RunContext& run) {
     StudySummary summary;
     for (std::size_t i = begin; i < lines.size(); ++i) {
         run.check_stop();
@@ -239,7 +238,7 @@ std::vector<MeanRow> means_of_rows(std::span<const std::string_view> lines, std:
         if (!row) fail(ErrorKind::input, "{}:{}: this is not a row of a study", source, i + 1);
         summary.add(*row);
     }
-    return summary.mean_rows({.resamples = 0}, run);
+    return summary;
 }
 
 std::vector<MeanRow> means_in_summary(std::span<const std::string_view> lines, std::size_t begin,
@@ -260,8 +259,8 @@ std::vector<MeanRow> means_in_summary(std::span<const std::string_view> lines, s
 
 }  // namespace
 
-std::optional<std::vector<MeanRow>> read_means(std::string_view bytes, const std::string& source,
-                                               const RunContext& run) {
+std::optional<std::variant<std::vector<MeanRow>, StudySummary>> read_study(
+    std::string_view bytes, const std::string& source, const RunContext& run) {
     const std::string_view table = without_preface(bytes);
     const std::string_view first = table.substr(0, table.find('\n'));
     const bool csv = !first.starts_with('{');
@@ -278,7 +277,16 @@ std::optional<std::vector<MeanRow>> read_means(std::string_view bytes, const std
     const std::size_t begin = above + (csv ? 1 : 0);
     if (summary) return means_in_summary(lines, begin, style, source);
     const bool seconds = first.find("generate_seconds") != first.npos;
-    return means_of_rows(lines, begin, StudyTable(style, seconds), source, run);
+    return rows_in(lines, begin, StudyTable(style, seconds), source, run);
+}
+
+std::optional<std::vector<MeanRow>> read_means(std::string_view bytes, const std::string& source,
+                                               const RunContext& run) {
+    auto study = read_study(bytes, source, run);
+    if (!study) return std::nullopt;
+    if (const auto* rows = std::get_if<StudySummary>(&*study))
+        return rows->mean_rows({.resamples = 0}, run);
+    return std::get<0>(*std::move(study));
 }
 
 // ---------------------------------------------------------------- wide tables

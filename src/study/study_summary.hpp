@@ -15,6 +15,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <variant>
 #include <vector>
 
 #include "stipple/study.hpp"
@@ -61,6 +62,11 @@ struct SummaryOptions {
 class StudySummary {
   public:
     void add(const StudyRow& row);
+
+    /// Seed of the first set that has a value; 1 if there is none.
+    [[nodiscard]] std::uint64_t first_seed() const {
+        return samples_.empty() ? 1 : samples_[0].seeds[0];
+    }
 
     /// A row for each generator, dimension, count, measure and key.
     /// @throws Error(cancelled)
@@ -119,9 +125,12 @@ StudySummary summary_of(std::span<const StudyValue> values);
 /// Whether results under a key are errors, for which the distance from 0 matters.
 bool is_error_key(std::string_view key);
 
-/// Reads means from a study's table, without bootstrap intervals, or from its summary. Returns
-/// nullopt if the text is neither.
+/// Reads a study's table or, as means, its summary. Returns nullopt if the text is neither.
 /// @throws Error(input) for a line that is not a row; Error(cancelled)
+std::optional<std::variant<std::vector<MeanRow>, StudySummary>> read_study(
+    std::string_view bytes, const std::string& source, const RunContext& run);
+
+/// As read_study(), with the means of a table, without bootstrap intervals.
 std::optional<std::vector<MeanRow>> read_means(std::string_view bytes, const std::string& source,
                                                const RunContext& run);
 

@@ -392,9 +392,28 @@ TEST(Study, WideTablesHaveARowForEachCountAndAColumnForEachGenerator) {
     EXPECT_EQ(good(box.shell("stipple study --wide s.csv -f jsonl | head -1 | grep -c half_width")),
               "1\n");
     expect_refusal(box.shell("stipple study --wide s.csv -n 8"), 2, "--count: does not apply");
+    expect_refusal(box.shell("stipple study --wide s.csv --keys value"), 2, "--keys: does not");
+    expect_refusal(box.shell("stipple study --wide s.summary.csv --confidence 0.9"), 2,
+                   "--confidence: does not apply to the summary of a study");
+    EXPECT_EQ(good(box.shell("stipple study --wide s.csv --confidence 0.9")),
+              good(box.shell(study + "--wide --confidence 0.9")));
     box.write("p.csv", "x,y\n0,0\n");
     expect_refusal(box.shell("stipple study --wide p.csv"), 3,
                    "p.csv: is not the table of a study");
+}
+
+TEST(Study, SummarizesATableWithoutMeasuringAgain) {
+    const Sandbox box;
+    const std::string how = "--summary --pairs paired --confidence 0.9 --bootstrap 500 ";
+    good(box.shell(small + ("-s 7 " + how + "-o s.csv")));
+    const std::string means = box.read("s.summary.csv"), pairs = box.read("s.comparisons.csv");
+    EXPECT_EQ(good(box.shell("stipple study s.csv " + how)), means + "\n" + pairs);
+    good(box.shell("rm s.summary.csv s.comparisons.csv; stipple study s.csv -o t.csv " + how));
+    EXPECT_EQ(box.read("t.summary.csv"), means);
+    EXPECT_EQ(box.read("t.comparisons.csv"), pairs);
+    EXPECT_EQ(box.files().size(), 3U);
+    expect_refusal(box.shell("stipple study --summary t.summary.csv"), 2,
+                   "--summary: does not apply to the summary of a study");
 }
 
 TEST(Study, LatexIsAWideTableWithoutConstantColumns) {
