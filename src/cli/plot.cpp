@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -285,16 +284,7 @@ class Plot {
     void rename_sources() {
         for (Loaded& set : sets_) rename_columns(set);
         if (labels_.empty()) return;
-        std::map<std::string, std::string> names;
-        for (MeanRow& row : means_) {
-            if (names.size() < labels_.size() && !names.contains(row.generator))
-                names.emplace(row.generator, labels_[names.size()]);
-            else if (!names.contains(row.generator))
-                refuse_labels("generator");
-        }
-        if (!means_.empty() && names.size() < labels_.size())
-            refuse_labels(fmt::format("of the {} generators", names.size()));
-        for (MeanRow& row : means_) row.generator = names.at(row.generator);
+        if (!means_.empty()) label_generators(means_, labels_);
         const std::vector<std::size_t> firsts = firsts_of_inputs();
         const bool all = labels_.size() == sets_.size();
         if (!all && !sets_.empty() && labels_.size() != firsts.size())

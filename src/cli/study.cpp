@@ -118,6 +118,7 @@ std::string command_of(const StudyRequest& request) {
 
 /// The means as a wide table, in the format of the request.
 std::string wide_text(std::vector<MeanRow> means, const StudyRequest& request) {
+    if (!request.labels.empty()) label_generators(means, request.labels);
     const StudyFormat format = study_format(request, output_of(request));
     if (format == StudyFormat::latex) return wide_latex(means, command_of(request));
     const TableStyle style = style_of(format);

@@ -134,6 +134,10 @@ std::optional<std::variant<std::vector<MeanRow>, StudySummary>> read_study(
 std::optional<std::vector<MeanRow>> read_means(std::string_view bytes, const std::string& source,
                                                const RunContext& run);
 
+/// Replaces the generators, in the order of their first rows. @throws Error(usage) if there are not
+/// as many labels
+void label_generators(std::vector<MeanRow>& means, std::span<const std::string> labels);
+
 // A wide table has a row for each measure, key, dimension and count, and columns for each
 // generator: its mean, and the half-width of its t interval. For errors (keys that end with error),
 // these are the root mean square and half the width of its interval.

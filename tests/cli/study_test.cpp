@@ -416,6 +416,21 @@ TEST(Study, SummarizesATableWithoutMeasuringAgain) {
                    "--summary: does not apply to the summary of a study");
 }
 
+TEST(Study, WideTablesHaveTheLabelsOfGenerators) {
+    const Sandbox box;
+    const std::string study =
+        "stipple study random halton -n 16,64 --analyze l2-discrepancy --keys centered.value ";
+    good(box.shell(study + "-o s.csv"));
+    for (const std::string from : {study.c_str(), "stipple study s.csv "}) {
+        EXPECT_THAT(good(box.shell(from + "-f latex --labels 'Monte Carlo,Halton_2'")),
+                    HasSubstr("$n$ & Monte Carlo & Halton\\_2 \\\\\n"));
+        EXPECT_THAT(good(box.shell(from + "--wide --labels 'A,\"B, C\"'")),
+                    HasSubstr(",A,A half_width,\"B, C\",\"B, C half_width\"\n"));
+        expect_refusal(box.shell(from + "--wide --labels A"), 2,
+                       "--labels: 1 names; expected one for each of the 2 generators");
+    }
+}
+
 TEST(Study, LatexIsAWideTableWithoutConstantColumns) {
     const Sandbox box;
     const std::string study =
@@ -1041,6 +1056,7 @@ TEST(Study, BadInputIsOneLineThatHelps) {
          "may follow it\n"},
         {"random --analyze moments --wide --summary",
          "stipple: --summary: is for tables of rows, not for a wide one\n"},
+        {"random --analyze moments --labels A", "stipple: --labels: requires --wide"},
         {"random --analyze moments --confidence 0.9",
          "stipple: --confidence: requires --summary or --wide, which are not given\n"}};
     for (const auto& [arguments, message] : cases) {

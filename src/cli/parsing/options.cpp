@@ -398,6 +398,8 @@ const Row rows[] = {  // an array, as a vector would copy each
      "names of the sets or curves in legends and titles, in order; for a study, of its generators; "
      "quotes keep a comma: 'A,\"B, C\"'",
      plot, &PlotRequest::labels},
+    {"--labels", "A,B,...", "", "with --wide: names of the generators, in order", study,
+     &StudyRequest::labels},
     {"--axes", "X,Y,...", "",
      "names of the axes: for points, of all coordinates; for curves, of x, then of y in each panel",
      plot, &PlotRequest::axes},
@@ -542,8 +544,11 @@ void StudyRequest::settle() {
     if (wide || format == StudyFormat::latex) {
         wide = true;
         refuse_options(*this, "summary,resume", "is for tables of rows, not for a wide one");
-    } else if (!summary && !has("config")) {
-        refuse_options(*this, "confidence", "requires --summary or --wide, which are not given");
+    } else if (!has("config")) {
+        refuse_options(*this, "labels", "requires --wide, which is not given");
+        if (!summary)
+            refuse_options(*this, "confidence",
+                           "requires --summary or --wide, which are not given");
     }
 }
 

@@ -170,6 +170,7 @@ enum class StudyFormat { csv, jsonl, latex };
 struct StudyRequest : Request, SweepRequest, SummaryOptions {
     std::optional<std::string> config = {};
     std::optional<StudyFormat> format = {};
+    std::vector<std::string> labels = {};  ///< names of the generators
     bool summary = false;
     bool wide = false;
     bool meta = false;
