@@ -290,16 +290,12 @@ std::optional<std::vector<MeanRow>> read_means(std::string_view bytes, const std
 }
 
 void label_generators(std::vector<MeanRow>& means, std::span<const std::string> labels) {
-    std::map<std::string, std::string> names;
-    for (const MeanRow& row : means) {
-        const std::size_t number = names.size();
-        if (names.try_emplace(row.generator).second && number < labels.size())
-            names[row.generator] = labels[number];
-    }
-    if (names.size() != labels.size())
+    std::map<std::string, std::size_t> numbers;
+    for (const MeanRow& row : means) numbers.try_emplace(row.generator, numbers.size());
+    if (numbers.size() != labels.size())
         fail(ErrorKind::usage, "--labels: {} names; expected one for each of the {} generators",
-             labels.size(), names.size());
-    for (MeanRow& row : means) row.generator = names.at(row.generator);
+             labels.size(), numbers.size());
+    for (MeanRow& row : means) row.generator = labels[numbers.at(row.generator)];
 }
 
 // ---------------------------------------------------------------- wide tables
