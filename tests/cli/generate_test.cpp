@@ -327,7 +327,7 @@ TEST(Warp, DensitiesOfPointsGoAlong) {
     good(box.shell("stipple generate random -n 3 -d 3 -w normal@3 --with-pdf -f json -o n.json"));
     expect(last("stipple warp disk n.json --coordinates 1,2 -f json | "
                 "stipple warp disk --coordinates 1,2 --inverse - -f csv"),
-           last("stipple convert n.json --column 4 -f csv"));
+           last("stipple convert n.json --column 4 -f csv --quiet"));
     for (const char* refused : {"rejection --density '1+x*y' q.csv", "owen p.csv"})
         expect_refusal(box.shell(std::string("stipple warp ") + refused), 3,
                        "the points have a column of densities");
