@@ -699,7 +699,8 @@ ChartPanel histogram_panel(const PointsPicture& picture, const Box& box, std::si
     ChartPanel panel{.x_name = shown_names(picture)[k], .y_name = "density", .from_zero = true};
     panel.log_x = is_log(picture, k);
     if (panel.log_x) panel.y_name += fmt::format(" of ln {}", panel.x_name);
-    const auto histogram = is_whole(picture, k) ? whole_histogram : histogram_of;
+    panel.whole_x = is_whole(picture, k);
+    const auto histogram = panel.whole_x ? whole_histogram : histogram_of;
     for (std::size_t s = 0; s < picture.sets.size(); ++s) {
         const std::vector<double> values = coordinate(*picture.sets[s], k);
         Bars bars = histogram(values, box.low[k], box.high[k], bins_of(values.size()), panel.log_x);

@@ -233,7 +233,9 @@ TEST(PointsPicture, HistogramBarsOfWholeNumbersHoldEquallyMany) {
         for (std::size_t i = 0; i < n; ++i)
             points[i][0] = low + static_cast<int>(i % static_cast<std::size_t>(numbers));
         points.domain = domain_named(domain, 1);
-        return histogram_chart(picture_of({&points})).panels.at(0).bars.at(0);
+        const ChartPanel panel = histogram_chart(picture_of({&points})).panels.at(0);
+        EXPECT_EQ(panel.whole_x, low > 0) << "no numbers such as 0.5 on the axis";
+        return panel.bars.at(0);
     };
     for (const char* domain : {"integers:low=3,high=12", "unit-cube"}) {
         const Bars bars = bars_of(domain, 3, 10, 1000);
