@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """Writes the type stub of the package, __init__.pyi: calls with the options of each unit, from the
-records of the units; all else has its types in the sources. Usage: stubs.py FOLDER, where FOLDER is
+records of the units, and calls of any unit with the options of all; all else has its types in the
+sources. Usage: stubs.py FOLDER, where FOLDER is
 the package."""
 
 import ast
@@ -10,12 +11,12 @@ from pathlib import Path
 
 TYPES = {
     "flag": "bool",
-    "integer": "int",
-    "number": "float",
+    "integer": "Whole",
+    "number": "Number",
     "text": "str",
     "file": "str | os.PathLike[str]",
-    "numbers": "float | Iterable[float] | str",
-    "points": "Iterable[Iterable[float]] | NDArray[Any] | str",
+    "numbers": "Number | Iterable[Number] | str",
+    "points": "Iterable[Iterable[Number]] | NDArray[Any] | str",
     "extents": "str",
 }
 
@@ -29,14 +30,14 @@ import pandas  # type: ignore
 import polars  # type: ignore
 from numpy.typing import ArrayLike, NDArray
 
-from ._arguments import Bounds, Floats, Option, Parameters, Path, Progress, Unit, Units
+from ._arguments import Bounds, Floats, Number, Option, Parameters, Path, Progress, Unit, Units, Whole
 from ._frames import Frame
-from .calls import PointsLike
+from .calls import PointsLike, Sequence
 
 '''
 
-RUN = "threads: int = 0, max_memory: float = 0, progress: Progress = None"
-MADE = ("n: int | None = None, d: int | None = None, *, {}seed: int = 1, start: int = 0, bounds: Bounds = None, "
+RUN = "threads: Whole = 0, max_memory: Number = 0, progress: Progress = None"
+MADE = ("n: Whole | None = None, d: Whole | None = None, *, {}seed: Whole = 1, start: Whole = 0, bounds: Bounds = None, "
         "warp: Units | None = None, parameters: Parameters = None")
 # What generate() returns, by arguments: one set, then several, then unknown ones.
 KINDS = [("return_meta: Literal[False] = False, as_frame: Literal[False] = False", "Floats"),
@@ -45,16 +46,18 @@ KINDS = [("return_meta: Literal[False] = False, as_frame: Literal[False] = False
          ("return_meta: bool = False, as_frame: Literal['polars']", "polars.DataFrame")]
 RESULTS = [
     *(("sets: Literal[1] = 1, " + arguments, result) for arguments, result in KINDS),
-    *(("sets: int, " + arguments, ("" if "." in result else result + " | ") + f"builtins.list[{result}]")
+    *(("sets: Whole, " + arguments, ("" if "." in result else result + " | ") + f"builtins.list[{result}]")
       for arguments, result in KINDS),
-    ("sets: int = 1, return_meta: bool = False, as_frame: bool | str = False", "Any"),
+    ("sets: Whole = 1, return_meta: bool = False, as_frame: bool | str = False", "Any"),
 ]
 CALLS = {
     "generators": ("generate", "{}", "generator", MADE.format(""), "Floats"),
     "warps": ("warp", "x: PointsLike, {}", "warp", "*", "Points"),
-    "scrambles": ("scramble", "x: PointsLike, {}", "scramble", "*, seed: int = 1, start: int = 0", "Floats"),
+    "scrambles": ("scramble", "x: PointsLike, {}", "scramble", "*, seed: Whole = 1, start: Whole = 0", "Floats"),
     "analyzers": ("analyze", "{}, x: PointsLike", "analyzer", "*, domain: str | None = None, parameters: Parameters = None", "Report"),
 }
+# Calls in calls.py with the options of these units.
+OTHERS = {"sequence": "generators", "integrate": "generators", "inverse": "warps", "pdf": "warps"}
 INTEGRAND = "str | Callable[[Floats], ArrayLike]"
 
 
@@ -66,7 +69,7 @@ def reexports(folder):
             for name in node.names:
                 if name.asname:
                     text += f"{name.asname}: str\n"
-                elif name.name not in {call for call, *_ in CALLS.values()}:
+                elif name.name not in {*OTHERS, *(call for call, *_ in CALLS.values())}:
                     text += f"from .{node.module} import {name.name} as {name.name}\n"
     return text + "\n"
 
@@ -79,15 +82,24 @@ def type_of(option):
     return TYPES[option["type"]]
 
 
+def argument_of(option):
+    name = option["name"].replace("-", "_")
+    return name + "_" * keyword.iskeyword(name)
+
+
+def all_options(units, given):
+    """The options of all units, except arguments that a call already has."""
+    names = dict.fromkeys(argument_of(option) for unit in units for option in unit["options"])
+    return ", ".join(f"{name}: Option = None" for name in names if f"{name}:" not in given)
+
+
 def call_text(kind, unit):
     """The overload for a unit's name."""
     function, first, argument, rest, result = CALLS[kind]
     names = ", ".join(repr(name) for name in [unit["name"], *unit["aliases"]])
     options = []
     for option in unit["options"]:
-        name = option["name"].replace("-", "_")
-        if keyword.iskeyword(name):
-            name += "_"
+        name = argument_of(option)
         if f"{name}:" not in rest:
             options.append(f"{name}: {type_of(option)} | None = None")
     given = first.format(f"{argument}: Literal[{names}]")
@@ -95,7 +107,7 @@ def call_text(kind, unit):
             f'    """{unit["summary"]}"""\n')
 
 
-def any_text(kind):
+def any_text(kind, units):
     """The overloads for any spec."""
     function, first, argument, rest, result = CALLS[kind]
     given = first.format(f"{argument}: Unit")
@@ -105,7 +117,21 @@ def any_text(kind):
         if kind == "generators":
             rest = MADE.format(arguments + ", " if arguments else "")
         extra = f"integrand: {INTEGRAND} | None = None, " if kind == "analyzers" else ""
-        text += f"@overload\ndef {function}({given}, {rest}, {extra}{RUN}, **options: Option) -> {result}: ...\n"
+        arguments = f"{given}, {rest}, {extra}{RUN}"
+        text += f"@overload\ndef {function}({arguments}, {all_options(units, arguments)}) -> {result}: ...\n"
+    return text
+
+
+def others_text(folder, records):
+    """The calls in OTHERS."""
+    text = ""
+    for node in ast.parse((folder / "calls.py").read_text()).body:
+        if isinstance(node, ast.FunctionDef) and node.name in OTHERS:
+            star = "" if node.args.kwonlyargs else "*, "
+            arguments = ast.unparse(node.args).replace("**options: Option", star)
+            options = all_options(records[OTHERS[node.name]], arguments)
+            text += (f"def {node.name}({arguments}{options}) -> {ast.unparse(node.returns)}:\n"
+                     f'    """{ast.get_docstring(node, clean=False)}"""\n')
     return text
 
 
@@ -116,7 +142,10 @@ def main(folder):
     records = _stipple.records()
     text = HEAD + reexports(folder)
     for kind in CALLS:
-        text += "".join(call_text(kind, unit) for unit in records[kind]) + any_text(kind)
+        text += "".join(call_text(kind, unit) for unit in records[kind])
+        scrambles = records["scrambles"] if kind == "warps" else []  # which warp() also takes
+        text += any_text(kind, [*records[kind], *scrambles])
+    text += others_text(folder, records)
     public = next(ast.literal_eval(node.value) for node in ast.parse((folder / "__init__.py").read_text()).body
                   if isinstance(node, ast.Assign))
     (folder / "__init__.pyi").write_text(f"{text}\n__all__ = {public}\n")

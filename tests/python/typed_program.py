@@ -27,6 +27,18 @@ stipple.write("frame.csv", frame)
 parameters = {"parameters": [{"name": "a", "range": [2, 3]}]}
 assert_type(stipple.generate("random", 64, parameters=parameters), Floats)
 
+# Numbers of NumPy
+eight = np.int64(8)
+assert_type(stipple.generate("halton", eight, np.int32(2), seed=np.uint8(3), leap=np.int16(409), threads=eight),
+            Floats)
+stipple.generate("halton", eight, seed=eight, start=eight, sets=eight, return_meta=True, max_memory=np.float32(1e9))
+stipple.generate("poisson-disk", radius=np.float32(0.1), bounds=(np.float32(0), eight))
+stipple.integrate(lambda x: x[:, 0], "random", eight, eight, start=eight, replications=eight, confidence=np.float32(0.9))
+stipple.study("random", "moments", n=[eight], d=np.int8(2), seeds=eight, seed=eight)
+assert_type(stipple.sequence("halton", eight)[eight], Floats)
+assert_type(qmc.Halton(eight, seed=eight).random(eight), Floats)
+assert_type(stipple.warp(x, "owen", base=2), stipple.Points)
+
 sequence = stipple.sequence("halton", d=2, scramble="owen")
 assert_type(sequence, stipple.Sequence)
 assert_type(sequence[0:10], Floats)
@@ -100,6 +112,15 @@ assert_type(qmc.van_der_corput(5, 3, scramble=True, seed=None), Floats)
 # Wrong calls
 stipple.generate("halton", "10")  # error: call-overload
 stipple.generate(3)  # error: call-overload
+stipple.generate("sobol", 256, 2, scramle="owen")  # error: call-overload
+stipple.generate(("sobol", {}), sets=3, scramle="owen")  # error: call-overload
+stipple.analyze("star-discrepancy", x, max_wrk=3)  # error: call-overload
+stipple.warp(x, "disk", methd="concentric")  # error: call-overload
+stipple.scramble(x, "owen", bas=2)  # error: call-overload
+stipple.sequence("halton", 2, leep=3)  # error: call-arg
+stipple.inverse(x, "disk", methd="concentric")  # error: call-arg
+stipple.pdf(x, "disk", methd="concentric")  # error: call-arg
+stipple.integrate(product, "sobol", 64, 2, scramle="owen")  # error: call-arg
 stipple.generate("halton", bounds=3)  # error: call-overload
 stipple.read("a.csv", formt="csv")  # error: arg-type
 stipple.integrate(3, "random", 10, 2)  # error: arg-type

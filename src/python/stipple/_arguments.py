@@ -17,12 +17,14 @@ from ._errors import Error
 Floats: TypeAlias = NDArray[np.float64]
 Path: TypeAlias = str | bytes | os.PathLike[str] | os.PathLike[bytes]
 Progress: TypeAlias = bool | Callable[[float], object] | None
+Whole: TypeAlias = int | np.integer[Any]
+Number: TypeAlias = float | np.floating[Any] | np.integer[Any]
 Option: TypeAlias = (
-    bool | float | str | os.PathLike[str] | Iterable[float | str | Iterable[float]] | None
+    bool | Number | str | os.PathLike[str] | Iterable[Number | str | Iterable[Number]] | None
 )
 Unit: TypeAlias = str | tuple[str, Mapping[str, Option]]
 Units: TypeAlias = Unit | Iterable[Unit]
-Bounds: TypeAlias = str | tuple[float, float] | Iterable[Iterable[float]] | NDArray[Any] | None
+Bounds: TypeAlias = str | tuple[Number, Number] | Iterable[Iterable[Number]] | NDArray[Any] | None
 Parameters: TypeAlias = Path | Mapping[str, Any] | None
 
 MOST = 2**53  # points, and their indices

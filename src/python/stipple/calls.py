@@ -18,12 +18,14 @@ from . import _axes, _stipple
 from ._arguments import (
     Bounds,
     Floats,
+    Number,
     Option,
     Parameters,
     Path,
     Progress,
     Unit,
     Units,
+    Whole,
     bounds_text,
     flag,
     listed,
@@ -84,19 +86,19 @@ def _parameters_of(parameters: Parameters) -> tuple[str, int]:
 
 def generate(
     generator: Unit,
-    n: int | None = None,
-    d: int | None = None,
+    n: Whole | None = None,
+    d: Whole | None = None,
     *,
-    seed: int = 1,
-    start: int = 0,
-    sets: int = 1,
+    seed: Whole = 1,
+    start: Whole = 0,
+    sets: Whole = 1,
     bounds: Bounds = None,
     warp: Units | None = None,
     parameters: Parameters = None,
     return_meta: bool = False,
     as_frame: bool | str = False,
-    threads: int = 0,
-    max_memory: float = 0,
+    threads: Whole = 0,
+    max_memory: Number = 0,
     progress: Progress = None,
     **options: Option,
 ) -> Any:
@@ -132,7 +134,7 @@ def generate(
     meta_needed = flag("return_meta", return_meta) or as_frame is not False
     asked = _stipple.Asked(
         spec_text("generator", generator), settings_of(options), whole_or_none("n", n),
-        whole_or_none("d", d, 0, DIMENSIONS), seed_of(seed), whole("start", start), sets,
+        whole_or_none("d", d, 0, DIMENSIONS), seed_of(seed), whole("start", start), int(sets),
         bounds_text(bounds), warps,
     )
     points, meta = _stipple.generate(asked, meta_needed, run_options(threads, max_memory, progress))
@@ -153,9 +155,9 @@ class Sequence:
     s.blocks(1000) yields blocks of 1000 points endlessly. Made by sequence(); can be copied and
     pickled."""
 
-    def __init__(self, generator: Unit, d: int | None = None, *, seed: int = 1, threads: int = 0,
-                 max_memory: float = 0, progress: Progress = None, **options: Option) -> None:
-        self._made_by: tuple[Unit, int | None, dict[str, Any]] = generator, d, {**options}
+    def __init__(self, generator: Unit, d: Whole | None = None, *, seed: Whole = 1, threads: Whole = 0,
+                 max_memory: Number = 0, progress: Progress = None, **options: Option) -> None:
+        self._made_by: tuple[Unit, Whole | None, dict[str, Any]] = generator, d, {**options}
         self._made_by[2].update(seed=seed, threads=threads, max_memory=max_memory, progress=progress)
         self._how = run_options(threads, max_memory, progress)
         self._points = _stipple.Indexed(
@@ -171,7 +173,7 @@ class Sequence:
         """Number of coordinates."""
         return self._points.dimension
 
-    def __getitem__(self, index: int | slice) -> Floats:
+    def __getitem__(self, index: Whole | slice) -> Floats:
         if isinstance(index, slice):
             if index.stop is None or any(isinstance(part, int) and part < low for part, low in
                                          ((index.start, 0), (index.stop, 0), (index.step, 1))):
@@ -185,29 +187,28 @@ class Sequence:
         one: Floats = self._points.part(whole("an index", index), 1, self._how)[0]
         return one
 
-    def blocks(self, size: int, start: int = 0) -> Iterator[Floats]:
+    def blocks(self, size: Whole, start: Whole = 0) -> Iterator[Floats]:
         """Consecutive blocks (size, d) of `size` >= 1 points, from point `start` >= 0 on."""
-        whole("size", size, 1)
-        whole("start", start)
+        step = whole("size", size, 1)
 
         def all_blocks(first: int) -> Iterator[Floats]:
             while True:
-                yield self[first : first + size]
-                first += size
+                yield self[first : first + step]
+                first += step
 
-        return all_blocks(start)
+        return all_blocks(whole("start", start))
 
     def __iter__(self) -> Iterator[Floats]:
         for block in self.blocks(1024):
             yield from block
 
 
-def _again(generator: Unit, d: int | None, options: dict[str, Any]) -> Sequence:
+def _again(generator: Unit, d: Whole | None, options: dict[str, Any]) -> Sequence:
     return Sequence(generator, d, **options)
 
 
-def sequence(generator: Unit, d: int | None = None, *, seed: int = 1, threads: int = 0,
-             max_memory: float = 0, progress: Progress = None, **options: Option) -> Sequence:
+def sequence(generator: Unit, d: Whole | None = None, *, seed: Whole = 1, threads: Whole = 0,
+             max_memory: Number = 0, progress: Progress = None, **options: Option) -> Sequence:
     """Points of a sequence by index and in blocks; see Sequence. Works with generators whose points
     do not depend on their number; raises Error for others. Arguments as for generate()."""
     return Sequence(generator, d, seed=seed, threads=threads, max_memory=max_memory,
@@ -222,7 +223,7 @@ def _each_set(sets: tuple[list[Given], bool], work: Callable[[int, Given], Any])
     return np.stack(results) if len({one.shape for one in results}) == 1 else results
 
 
-def warp(x: PointsLike, warp: Unit, *, threads: int = 0, max_memory: float = 0,
+def warp(x: PointsLike, warp: Unit, *, threads: Whole = 0, max_memory: Number = 0,
          progress: Progress = None, **options: Option) -> Any:
     """Images of points of the unit cube: Points (n, k); arrays (sets, n, d) are warped set by set.
 
@@ -257,7 +258,7 @@ def _on_images(spec: str, settings: _stipple.Settings, one: Given) -> Given:
     return matched((rows, _stipple.domain_of_images(spec, settings, rows.shape[-1]), meta))
 
 
-def inverse(x: PointsLike, warp: Unit, *, threads: int = 0, max_memory: float = 0,
+def inverse(x: PointsLike, warp: Unit, *, threads: Whole = 0, max_memory: Number = 0,
             progress: Progress = None, **options: Option) -> Floats:
     """The points of the unit cube that a warp maps to x: an array (n, d) or (sets, n, d). Arguments
     as for warp(); raises Error for points outside the warp's domain."""
@@ -283,8 +284,8 @@ def pdf(x: PointsLike, warp: Unit, **options: Option) -> Floats:
     return found
 
 
-def scramble(x: PointsLike, scramble: Unit, *, seed: int = 1, start: int = 0, threads: int = 0,
-             max_memory: float = 0, progress: Progress = None, **options: Option) -> Floats:
+def scramble(x: PointsLike, scramble: Unit, *, seed: Whole = 1, start: Whole = 0, threads: Whole = 0,
+             max_memory: Number = 0, progress: Progress = None, **options: Option) -> Floats:
     """Moves points of the unit cube at random, so that each becomes uniform and the set stays as
     evenly distributed: an array (n, d) or (sets, n, d).
 
@@ -300,22 +301,22 @@ def scramble(x: PointsLike, scramble: Unit, *, seed: int = 1, start: int = 0, th
     how = run_options(threads, max_memory, progress)
     settings, spec = settings_of(options), spec_text("scramble", scramble)
     first = seed_of(seed)
-    whole("start", start)
+    at = whole("start", start)
 
     def scrambled(k: int, one: Given) -> Floats:
         rows, _, meta = one
         outside = np.flatnonzero(((rows < 0) | (rows > 1)).any(axis=1))
         if outside.size:
             raise Error(f"x[{outside[0]}] is {rows[outside[0]].tolist()}, outside the unit cube", "input")
-        return _stipple.scramble(spec, settings, rows, meta, (first + k) % 2**64, start, how)
+        return _stipple.scramble(spec, settings, rows, meta, (first + k) % 2**64, at, how)
 
     found: Floats = _each_set(sets_of(x), scrambled)
     return found
 
 
 def analyze(analyzer: Unit, x: PointsLike, *, domain: str | None = None, parameters: Parameters = None,
-            integrand: str | Callable[[Floats], ArrayLike] | None = None, threads: int = 0,
-            max_memory: float = 0, progress: Progress = None, **options: Option) -> Report:
+            integrand: str | Callable[[Floats], ArrayLike] | None = None, threads: Whole = 0,
+            max_memory: Number = 0, progress: Progress = None, **options: Option) -> Report:
     """Results of an analyzer for a set of points: a Report, which is a mapping with attributes.
 
     analyzer   name or spec: "star-discrepancy", "l2-discrepancy:kind=centered"
@@ -397,16 +398,17 @@ class Integral(NamedTuple):
     estimates: Floats
 
 
-def integrate(function: Callable[[Floats], ArrayLike], generator: Unit, n: int, d: int | None, *,
-              replications: int = 16, seed: int = 1, confidence: float = 0.95,
-              warp: Unit | None = None, mean: bool = False, threads: int = 0,
-              max_memory: float = 0, progress: Progress = None, **options: Option) -> Integral:
+def integrate(function: Callable[[Floats], ArrayLike], generator: Unit, n: Whole, d: Whole | None, *,
+              replications: Whole = 16, seed: Whole = 1, start: Whole = 0,
+              confidence: Number = 0.95, warp: Unit | None = None, mean: bool = False,
+              threads: Whole = 0, max_memory: Number = 0, progress: Progress = None, **options: Option) -> Integral:
     """Integral of a function over the unit cube, or over the domain of a warp: an Integral.
 
     function      takes an array (m, d) of points; returns an array (m,) of finite values
     generator     name or spec; its seeds must give independent sets: "sobol:scramble=owen"
     n, d          number of points of each set, and of their coordinates
     replications  number of sets of n points, with seeds seed, seed + 1, ...; at least 2
+    start         index of the first point, for sequences
     confidence    of the interval, in (0, 1)
     warp          one warp; values are divided by the density of its images
     mean          estimate the mean of the values under the warp's distribution, such as an expected
@@ -420,15 +422,16 @@ def integrate(function: Callable[[Floats], ArrayLike], generator: Unit, n: int, 
     if whole("replications", replications, 0) < 2:
         raise Error("replications: an error needs two or more")
     for name in options:
-        if name != "start" and name in generate.__kwdefaults__:
+        if name in generate.__kwdefaults__:
             raise Error(f"integrate() has no argument {name!r}; a warp moves the points to another domain")
     spec = spec_text("generator", generator)
     mapping = None if warp is None else spec_text("warp", warp)
     plain = flag("mean", mean) or mapping is None
-    real("confidence", confidence, 0, 1, "a number between 0 and 1")
+    confidence = real("confidence", confidence, 0, 1, "a number between 0 and 1")
     estimates: list[float] = []
     before: Floats | None = None
-    made_by: dict[str, Any] = {**options, "threads": threads, "max_memory": max_memory, "progress": progress}
+    made_by: dict[str, Any] = {**options, "start": start, "threads": threads, "max_memory": max_memory,
+                               "progress": progress}
     for r in range(replications):
         x = generate(spec, n, d, seed=seed_of(seed) + r, warp=mapping, **made_by)
         if before is not None and np.array_equal(x, before):
@@ -442,8 +445,8 @@ def integrate(function: Callable[[Floats], ArrayLike], generator: Unit, n: int, 
     return Integral(centre, error, low, high, np.array(estimates))
 
 
-def read(path: Path, *, format: str = "", d: int = 0, single: bool = False, threads: int = 0,
-         max_memory: float = 0, progress: Progress = None,
+def read(path: Path, *, format: str = "", d: Whole = 0, single: bool = False, threads: Whole = 0,
+         max_memory: Number = 0, progress: Progress = None,
          **unknown: Never) -> Points | list[Points]:
     """Points of a file: Points (n, d) with the file's meta; a list of them if the file has several
     sets.
@@ -487,7 +490,7 @@ def _check_names(x: Any, sets: list[Given], format: str, header: bool, meta: boo
 
 def write(path: Path, x: PointsLike | Iterable[PointsLike], *, domain: str | None = None,
           format: str = "", header: bool = True, meta: bool = False, single: bool = False,
-          precision: int | None = None, threads: int = 0, max_memory: float = 0,
+          precision: Whole | None = None, threads: Whole = 0, max_memory: Number = 0,
           progress: Progress = None, **unknown: Never) -> None:
     """Writes points to a file in the format of its extension: csv, txt, json, jsonl, npy, bin, utk,
     psa, ply, svg; .gz and .zst compress it.
@@ -548,11 +551,11 @@ class Study(list[StudyValue]):
     """The numbers of a study, each a StudyValue; means() averages them over seeds. A table of pandas
     is pandas.DataFrame(study)."""
 
-    def means(self, confidence: float = 0.95) -> list[StudyMean]:
+    def means(self, confidence: Number = 0.95) -> list[StudyMean]:
         """Means over the seeds with Student's t confidence intervals of this level in (0, 1): a list
         of StudyMean."""
-        real("confidence", confidence, 0, 1, "a number between 0 and 1")
-        return [StudyMean(*row) for row in _stipple.means(_rows(self), confidence)]
+        level = real("confidence", confidence, 0, 1, "a number between 0 and 1")
+        return [StudyMean(*row) for row in _stipple.means(_rows(self), level)]
 
     def _repr_html_(self) -> str:
         head = "".join(f"<th>{name}</th>" for name in StudyValue._fields)
@@ -576,10 +579,10 @@ def _rows(study: Iterable[StudyValue]) -> list[tuple[Any, ...]]:
     return rows
 
 
-def study(generators: Units, analyzers: Units, *, n: int | Iterable[int] = (1024,),
-          d: int | Iterable[int] | None = None, seeds: int = 1, seed: int = 1,
+def study(generators: Units, analyzers: Units, *, n: Whole | Iterable[Whole] = (1024,),
+          d: Whole | Iterable[Whole] | None = None, seeds: Whole = 1, seed: Whole = 1,
           warp: Units | None = None, parameters: Parameters = None,
-          keys: str | Iterable[str] = (), threads: int = 0, max_memory: float = 0,
+          keys: str | Iterable[str] = (), threads: Whole = 0, max_memory: Number = 0,
           progress: Progress = None, **unknown: Never) -> Study:
     """Measures every generator at every count and dimension, with several seeds, by every analyzer.
     Returns a Study: a list of StudyValue, ordered by generator, dimension, count, seed and analyzer.
@@ -627,8 +630,8 @@ def _named(x: Any) -> list[tuple[str, Given]]:
     return list(zip(names, alike(found)))
 
 
-def report(path: Path, x: PointsLike | Mapping[str, PointsLike], *, threads: int = 0,
-           max_memory: float = 0, progress: Progress = None, **unknown: Never) -> Page:
+def report(path: Path, x: PointsLike | Mapping[str, PointsLike], *, threads: Whole = 0,
+           max_memory: Number = 0, progress: Progress = None, **unknown: Never) -> Page:
     """Writes a self-contained HTML page that compares up to 12 sets of one dimension: points, or a
     dictionary of points by name. Returns a Page, which notebooks display. Raises Error for sets that
     cannot be compared, and if the file cannot be written."""
@@ -676,16 +679,16 @@ Plotted: TypeAlias = (
 
 
 @overload  # type: ignore[misc]  # None is not meant by Axes
-def plot(x: Plotted, ax: None = None, *, key: str = "", width: float = 0, height: float = 0,
-         title: str | None = None, labels: str | Iterable[str] | None = None, threads: int = 0,
-         max_memory: float = 0, progress: Progress = None, **unknown: Never) -> Picture: ...
+def plot(x: Plotted, ax: None = None, *, key: str = "", width: Number = 0, height: Number = 0,
+         title: str | None = None, labels: str | Iterable[str] | None = None, threads: Whole = 0,
+         max_memory: Number = 0, progress: Progress = None, **unknown: Never) -> Picture: ...
 @overload
-def plot(x: Plotted, ax: Axes, *, key: str = "", width: float = 0, height: float = 0,
-         title: str | None = None, labels: str | Iterable[str] | None = None, threads: int = 0,
-         max_memory: float = 0, progress: Progress = None, **unknown: Never) -> Axes: ...
-def plot(x: Any, ax: Any = None, *, key: str = "", width: float = 0, height: float = 0,
-         title: str | None = None, labels: str | Iterable[str] | None = None, threads: int = 0,
-         max_memory: float = 0, progress: Progress = None, **unknown: Never) -> Any:
+def plot(x: Plotted, ax: Axes, *, key: str = "", width: Number = 0, height: Number = 0,
+         title: str | None = None, labels: str | Iterable[str] | None = None, threads: Whole = 0,
+         max_memory: Number = 0, progress: Progress = None, **unknown: Never) -> Axes: ...
+def plot(x: Any, ax: Any = None, *, key: str = "", width: Number = 0, height: Number = 0,
+         title: str | None = None, labels: str | Iterable[str] | None = None, threads: Whole = 0,
+         max_memory: Number = 0, progress: Progress = None, **unknown: Never) -> Any:
     """A picture of points, of reports, or of a study.
 
     x       points, or a dictionary of points by name. 1-D points give a histogram; 2-D and 3-D points

@@ -33,7 +33,7 @@ from scipy.spatial.distance import pdist, squareform  # type: ignore[import]
 from scipy.stats.qmc import QMCEngine, scale, update_discrepancy
 
 from . import _stipple
-from ._arguments import Floats, Option, settings_of
+from ._arguments import Floats, Option, Whole, settings_of
 from ._bridson import Bridson
 from .calls import _how, analyze, generate
 from .calls import scramble as _scrambled
@@ -58,8 +58,8 @@ __all__ = [
     "van_der_corput",
 ]
 
-Seed: TypeAlias = int | np.integer[Any] | np.random.Generator | np.random.RandomState | None
-Rng: TypeAlias = (int | np.integer[Any] | Sequence[int] | NDArray[np.integer[Any]] | None
+Seed: TypeAlias = Whole | np.random.Generator | np.random.RandomState | None
+Rng: TypeAlias = (Whole | Sequence[int] | NDArray[np.integer[Any]] | None
                   | np.random.SeedSequence | np.random.BitGenerator | np.random.Generator)
 
 _SEED = "rng" if "rng" in inspect.signature(QMCEngine.__init__).parameters else "seed"
@@ -86,7 +86,7 @@ def _first_seed(seed: Seed, rng: Rng) -> int:
     return int(source.integers(1, 2**63, dtype=np.int64))
 
 
-def _threads(workers: int) -> int:
+def _threads(workers: Whole) -> int:
     workers = int(workers)
     if workers == -1:
         cores = os.cpu_count()
@@ -139,7 +139,7 @@ _METHODS: dict[str, tuple[str, bool, Callable[[int], float], Callable[[Floats, F
 
 
 def discrepancy(sample: ArrayLike, *, iterative: bool = False, method: str = "CD",
-                workers: int = 1) -> float:
+                workers: Whole = 1) -> float:
     """L2 discrepancy of points: small if they are evenly spread.
 
     sample     points (n, d) in [0, 1]
@@ -232,8 +232,8 @@ def n_primes(n: int) -> list[int]:
     return [int(prime) for prime in primes[:n]]
 
 
-def van_der_corput(n: int, base: int = 2, *, start_index: int = 0, scramble: bool = False,
-                   seed: Seed = None, rng: Rng = None, workers: int = 1) -> Floats:
+def van_der_corput(n: Whole, base: Whole = 2, *, start_index: Whole = 0, scramble: bool = False,
+                   seed: Seed = None, rng: Rng = None, workers: Whole = 1) -> Floats:
     """Points start_index, start_index + 1, ... of the van der Corput sequence: an array (n,) in
     [0, 1).
 
@@ -275,17 +275,19 @@ class Engine(QMCEngine):  # type: ignore[misc]
     generator = "random"
 
     if TYPE_CHECKING:  # SciPy's, which have no types
+        d: int
         num_generated: int
 
-        def random(self, n: int = 1, *, workers: int = 1) -> Floats: ...
+        def random(self, n: Whole = 1, *, workers: Whole = 1) -> Floats: ...
 
-    def __init__(self, d: int, *, generator: str | None = None, optimization: str | None = None,
+    def __init__(self, d: Whole, *, generator: str | None = None, optimization: str | None = None,
                  seed: Seed = None, rng: Rng = None, **options: Option) -> None:
-        self.d = d
+        self.d = d  # type: ignore[assignment]  # SciPy refuses what is no integer
         self._first_seed = _first_seed(seed, rng)
         self._optimization = optimization
         self._name = generator or self.generator
         self._options: dict[str, Any] = options
+        self._init_quad: dict[str, Any]
         self._init_quad = {"d": d, "generator": self._name, "optimization": optimization, **options}
         self.reset()
         unit = find(self._name.split(":")[0], ["generators"])
@@ -306,22 +308,22 @@ class Engine(QMCEngine):  # type: ignore[misc]
                                             self._first_seed)
         return self._points
 
-    def _set(self, n: int | None, workers: int, **more: Option) -> Floats:
+    def _set(self, n: Whole | None, workers: Whole, **more: Option) -> Floats:
         """The next set of a generator that is not a sequence."""
         seed = (self._first_seed + self._sets) % 2**64
         self._sets += 1
         options: dict[str, Any] = {**self._options, **more, "threads": _threads(workers)}
         return np.array(generate(self._name, n, self.d, seed=seed, **options))
 
-    def _random(self, n: int = 1, *, workers: int = 1) -> Floats:
+    def _random(self, n: Whole = 1, *, workers: Whole = 1) -> Floats:
         if _whole("n", n) == 0 or self.d == 0:
             return np.empty((n, self.d))
         if self._prefix:
-            return self._indexed().part(self.num_generated, n, _how(_threads(workers)))
+            return self._indexed().part(self.num_generated, int(n), _how(_threads(workers)))
         return self._set(n, workers)
 
     def integers(self, l_bounds: ArrayLike, *, u_bounds: ArrayLike | None = None,
-                 n: int = 1, endpoint: bool = False, workers: int = 1) -> NDArray[np.int64]:
+                 n: Whole = 1, endpoint: bool = False, workers: Whole = 1) -> NDArray[np.int64]:
         """Points of integers (n, d): l + floor((u - l) x), which are below u.
 
         l_bounds, u_bounds  l and u: integers, for all coordinates or for each; without u_bounds, 0
@@ -349,17 +351,17 @@ class Engine(QMCEngine):  # type: ignore[misc]
         self._sets = 0
         return self
 
-    def fast_forward(self, n: int) -> Engine:
+    def fast_forward(self, n: Whole) -> Engine:
         """Skips n points of a sequence, or one set of n points."""
         self.num_generated += _whole("n", n)
-        self._sets += n > 0
+        self._sets += int(n > 0)
         return self
 
 
 class _Scrambled(Engine):
     """A sequence whose option scramble is a word, but True or False in SciPy."""
 
-    def __init__(self, d: int, *, scramble: bool | str = True, **options: Any) -> None:
+    def __init__(self, d: Whole, *, scramble: bool | str = True, **options: Any) -> None:
         self.scramble = scramble
         words: dict[bool | str, str] = {True: "owen", False: "none"}
         super().__init__(d, scramble=words.get(scramble, scramble), **options)
@@ -382,7 +384,7 @@ class Sobol(_Scrambled):
     generator = "sobol"
     MAXDIM: int = records()["generators"]["sobol"]["traits"]["max_dimension"]
 
-    def __init__(self, d: int, *, scramble: bool | str = True, bits: int | None = None,
+    def __init__(self, d: Whole, *, scramble: bool | str = True, bits: Whole | None = None,
                  optimization: str | None = None, seed: Seed = None, rng: Rng = None,
                  **options: Option) -> None:
         if isinstance(d, numbers.Integral) and d > self.MAXDIM and "directions" not in options:
@@ -397,7 +399,7 @@ class Sobol(_Scrambled):
                          **options)
         self._init_quad["bits"] = bits
 
-    def _random(self, n: int = 1, *, workers: int = 1) -> Floats:
+    def _random(self, n: Whole = 1, *, workers: Whole = 1) -> Floats:
         total = self.num_generated + _whole("n", n)
         if total > self.maxn:
             done = self.num_generated
@@ -410,7 +412,7 @@ class Sobol(_Scrambled):
                           stacklevel=3)
         return super()._random(n, workers=workers)
 
-    def random_base2(self, m: int) -> Floats:
+    def random_base2(self, m: Whole) -> Floats:
         """The next 2^m points, if there are then 2^k points in all; otherwise a ValueError."""
         total = self.num_generated + 2 ** _whole("m", m)
         if total & (total - 1) != 0:
@@ -435,7 +437,7 @@ class Halton(_Scrambled):
 
     generator = "halton"
 
-    def __init__(self, d: int, *, scramble: bool | str = True, optimization: str | None = None,
+    def __init__(self, d: Whole, *, scramble: bool | str = True, optimization: str | None = None,
                  seed: Seed = None, rng: Rng = None, **options: Option) -> None:
         super().__init__(d, scramble=scramble, optimization=optimization, seed=seed, rng=rng,
                          **options)
@@ -460,7 +462,7 @@ class LatinHypercube(Engine):
 
     generator = "latin-hypercube"
 
-    def __init__(self, d: int, *, centered: bool = False, scramble: bool = True, strength: int = 1,
+    def __init__(self, d: Whole, *, centered: bool = False, scramble: bool = True, strength: Whole = 1,
                  optimization: str | None = None, seed: Seed = None, rng: Rng = None,
                  **options: Option) -> None:
         if centered:
@@ -474,7 +476,7 @@ class LatinHypercube(Engine):
         super().__init__(d, optimization=optimization, seed=seed, rng=rng, **given)
         self._init_quad = {"d": d, "optimization": optimization, "strength": strength, **options}
 
-    def _random(self, n: int = 1, *, workers: int = 1) -> Floats:
+    def _random(self, n: Whole = 1, *, workers: Whole = 1) -> Floats:
         p = math.isqrt(_whole("n", n))
         if self._strength == 2 and n > 0:
             primes = primes_from_2_to(max(p, 3) + 1)
@@ -485,7 +487,7 @@ class LatinHypercube(Engine):
                 raise ValueError("n is too small for d. Must be n > (d-1)**2")
         return super()._random(n, workers=workers)
 
-    def random(self, n: int = 1, *, workers: int = 1) -> Floats:
+    def random(self, n: Whole = 1, *, workers: Whole = 1) -> Floats:
         """A set of n points (n, d)."""
         search = str(self._optimization).lower() == "random-cd" and self._strength == 1
         effort = self._options.get("effort", 0.01 if _whole("n", n) <= 500 else None)
@@ -523,8 +525,8 @@ class PoissonDisk(Engine):
 
     generator = "poisson-disk"
 
-    def __init__(self, d: int, *, radius: float = 0.05, hypersphere: str = "volume",
-                 ncandidates: int = 30, optimization: str | None = None, seed: Seed = None,
+    def __init__(self, d: Whole, *, radius: float = 0.05, hypersphere: str = "volume",
+                 ncandidates: Whole = 30, optimization: str | None = None, seed: Seed = None,
                  rng: Rng = None, l_bounds: ArrayLike | None = None,
                  u_bounds: ArrayLike | None = None, **options: Option) -> None:
         if hypersphere not in ("volume", "surface"):
@@ -539,7 +541,7 @@ class PoissonDisk(Engine):
         given: dict[str, Any] = options
         super().__init__(d, optimization=optimization, seed=seed, rng=rng, **given)
         low, high = 0 if l_bounds is None else l_bounds, 1 if u_bounds is None else u_bounds
-        self.l_bounds, self.u_bounds = box = _box(low, high, d)
+        self.l_bounds, self.u_bounds = box = _box(low, high, self.d)
         self._init_quad = {"d": d, "radius": radius, "hypersphere": hypersphere,
                            "ncandidates": ncandidates, "optimization": optimization,
                            "l_bounds": l_bounds, "u_bounds": u_bounds, **options}
@@ -558,36 +560,36 @@ class PoissonDisk(Engine):
         super().reset()
         return self
 
-    def _random(self, n: float = 1, *, workers: int = 1) -> Floats:
+    def _random(self, n: Whole | float = 1, *, workers: Whole = 1) -> Floats:
         if n == 0 or self.d == 0:
             return np.empty((int(n) if math.isfinite(n) else 0, self.d))
         if not self._maximal:
             if self._growing is None:
                 box = self.l_bounds, self.u_bounds
                 self._growing = Bridson(box, self.radius, self.hypersphere == "surface",
-                                        self.ncandidates, self._first_seed)
-            return self._growing.draw(n)
+                                        int(self.ncandidates), self._first_seed)
+            return self._growing.draw(float(n))
         if self._made is None:
             self._made = self._set(None, workers)
         first = self.num_generated
         return self._made[first : first + int(min(n, len(self._made)))].copy()
 
-    def _draw(self, n: float, workers: int) -> Floats:
+    def _draw(self, n: float, workers: Whole) -> Floats:
         sample = self._random(n, workers=workers)
         if self.optimization_method is not None and len(sample) > 0:
             sample = self.optimization_method(sample)
         self.num_generated += len(sample)
         return sample
 
-    def random(self, n: int = 1, *, workers: int = 1) -> Floats:
+    def random(self, n: Whole = 1, *, workers: Whole = 1) -> Floats:
         """The next n points, or as many as there is room for."""
         return self._draw(_whole("n", n), workers)
 
-    def fill_space(self, *, workers: int = 1) -> Floats:
+    def fill_space(self, *, workers: Whole = 1) -> Floats:
         """Points until there is no room or, by Bridson's algorithm, until no candidate fits."""
         return self._draw(math.inf, workers)
 
-    def fast_forward(self, n: int) -> PoissonDisk:
+    def fast_forward(self, n: Whole) -> PoissonDisk:
         """Skips n points."""
         self.random(n)
         return self
@@ -626,7 +628,7 @@ class MultinomialQMC(_scipy.MultinomialQMC):  # type: ignore[misc]
     random(n) returns an array (n, k). Raises ValueError for wrong probabilities or engines.
     """
 
-    def __init__(self, pvals: ArrayLike, n_trials: int, *, engine: QMCEngine | None = None,
+    def __init__(self, pvals: ArrayLike, n_trials: Whole, *, engine: QMCEngine | None = None,
                  seed: Seed = None, rng: Rng = None) -> None:
         engine = Sobol(1, seed=seed, rng=rng) if engine is None else engine
         super().__init__(pvals, n_trials, engine=engine)
