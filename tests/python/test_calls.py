@@ -481,6 +481,11 @@ def test_studies_have_pictures_as_the_program_draws_them(run, tmp_path):
 
 # A name that a result has draws this result; a part of a name draws all that have it.
 def test_a_key_draws_what_it_names():
+    underscored = {"_a": spectra["halton"], "b_": spectra["random"]}
+    for x in (underscored, {name: stipple.generate("halton", 8) for name in underscored}):
+        ax = stipple.plot(x, pyplot.figure().add_subplot())
+        assert {" _a", "b_"} <= {text.get_text() for text in ax.get_legend().get_texts()}
+        pyplot.close(ax.figure)
     study = stipple.study("random", ["star-discrepancy", "l2-discrepancy"], n=[16, 64])
     one = stipple.plot(study, key="value").svg
     assert one == stipple.plot([row for row in study if row.key == "value"]).svg

@@ -24,6 +24,11 @@ def axes_of(ax: Any) -> list[Any]:
     return found
 
 
+def _label(name: str) -> str | None:
+    """A name as legends show it: they leave out those that begin with an underscore."""
+    return f" {name}" if name.startswith("_") else name or None
+
+
 def draw_points(ax: Any, sets: list[tuple[str, Floats]], title: str | None, legend: bool,
                 logs: list[bool]) -> None:
     for name, rows in sets:
@@ -31,7 +36,7 @@ def draw_points(ax: Any, sets: list[tuple[str, Floats]], title: str | None, lege
             raise Error(
                 f"axes of Matplotlib show 2 coordinates; the points have {rows.shape[1]}", "input"
             )
-        ax.scatter(rows[:, 0], rows[:, 1], s=max(1, 4000 / len(rows)), label=name)
+        ax.scatter(rows[:, 0], rows[:, 1], s=max(1, 4000 / len(rows)), label=_label(name))
     positive = [log and all((rows[:, k] > 0).all() for _, rows in sets) for k, log in enumerate(logs)]
     for scale, log in zip((ax.set_xscale, ax.set_yscale), positive):
         if log:
@@ -49,15 +54,15 @@ def _draw_bars(ax: Any, panel: dict[str, Any]) -> None:
     for i, (name, x, y, low, high) in enumerate(panel["series"]):
         at = np.array(x) + (i - (len(panel["series"]) - 1) / 2) * width
         error = [np.subtract(y, low), np.subtract(high, y)] if low else None
-        ax.bar(at, y, width, label=name, yerr=error)
+        ax.bar(at, y, width, label=_label(name), yerr=error)
     ax.set_xticks(range(1, len(panel["categories"]) + 1), panel["categories"])
 
 
 def _draw_curves(ax: Any, panel: dict[str, Any]) -> None:
     for name, edges, heights in panel["bars"]:
-        ax.stairs(heights, edges, label=name or None)
+        ax.stairs(heights, edges, label=_label(name))
     for name, x, y, low, high in panel["series"]:
-        [line] = ax.plot(x, y, label=name or None, marker="." if len(x) < 30 else None)
+        [line] = ax.plot(x, y, label=_label(name), marker="." if len(x) < 30 else None)
         if low:
             ax.fill_between(x, low, high, color=line.get_color(), alpha=0.2, linewidth=0)
 
@@ -70,9 +75,9 @@ def draw_chart(axes: list[Any], chart: _stipple.Chart, title: str | None) -> Non
     for ax, panel in zip(axes, panels):
         (_draw_bars if panel["categories"] else _draw_curves)(ax, panel)
         for name, x, _, low, high in panel["bands"]:
-            ax.fill_between(x, low, high, color="0.9", label=name or None, zorder=0)
+            ax.fill_between(x, low, high, color="0.9", label=_label(name), zorder=0)
         for name, x, y in panel["guides"]:
-            style = {"color": "0.6", "linestyle": "--", "linewidth": 1, "label": name or None}
+            style = {"color": "0.6", "linestyle": "--", "linewidth": 1, "label": _label(name)}
             ax.plot(x, y, **style) if x else ax.axhline(y[0], **style)
         for scale, log in zip((ax.set_xscale, ax.set_yscale), panel["logs"]):
             if log:
