@@ -57,7 +57,7 @@ GENERATE = {"generator": UNIT + NOTHING, "n": WHOLE, "d": WHOLE + [0, 10**5], "s
             "bounds": BOUNDS, "warp": UNIT, "parameters": PARAMETERS, "return_meta": FLAG + NOTHING,
             "as_frame": ["csv", 3, None, Odd(), []], "options": OPTION, **RUN}
 WARP = {"x": POINTS + [X - 1], "warp": UNIT + NOTHING + ["owens"], "options": OPTION, **RUN}
-NAMED = SET + [{}, {3: X}, {"a": 3}, {"a": X, "b": X[:, :1]}]
+NAMED = POINTS + [{}, {3: X}, {"a": 3}, {"a": X, "b": X[:, :1]}]
 CALLS = {  # function: arguments of a right call, the option that OPTION is for, and wrong arguments
     "generate": ({"generator": "faure", "n": 4}, "base", GENERATE),
     "sequence": ({"generator": "faure"}, "base", {**GENERATE, "generator": UNIT + NOTHING + ["poisson-disk"]}),

@@ -378,6 +378,30 @@ def test_pictures_have_the_given_title_and_labels():
     assert ">my spectrum<" in stipple.plot({"a": spectrum, "b": spectrum}, title="my spectrum").svg
 
 
+def test_lists_of_sets_and_reports_have_their_numbers_as_names(tmp_path):
+    sets = stipple.generate("random", 16, sets=2, warp="disk", return_meta=True)
+    named = stipple.plot({"0": sets[0], "1": sets[1]})
+    for several in (sets, list(sets), tuple(sets), [one.to_pandas() for one in sets]):
+        assert stipple.plot(several).svg == named.svg
+    spectra = [stipple.analyze("moments", x) for x in sets]
+    assert stipple.plot(spectra).svg == stipple.plot(dict(zip("01", spectra))).svg
+    assert ">first<" in stipple.plot(list(sets), labels=["first", "second"]).svg
+    page = stipple.report(tmp_path / "a.html", list(sets))
+    assert "16 points" in (tmp_path / "a.html").read_text() and page.path
+    rows = [[0.1, 0.2], [0.3, 0.4]]
+    assert stipple.plot(rows).svg == stipple.plot([np.array(row) for row in rows]).svg
+    with pytest.raises(stipple.Error, match="is moments of points .*; expected points"):
+        stipple.plot([sets[0], spectra[0]])
+
+
+def test_formats_of_write_are_those_of_the_library(tmp_path):
+    formats = stipple.units.records()["formats"]
+    named = re.search(r"its\s+extension: ([^;]*);", stipple.write.__doc__)[1].replace(",", " ").split()
+    assert sorted(named) == sorted(name for name, unit in formats.items() if unit["traits"]["extensions"])
+    for name in named:
+        stipple.write(tmp_path / f"a.{name}", stipple.generate("halton", 16))
+
+
 # Any two doubles as coordinates give a picture without NaN or infinity, or an error.
 def test_pictures_of_all_kinds_of_pairs():
     random = np.random.default_rng(3)

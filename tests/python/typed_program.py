@@ -24,6 +24,7 @@ assert_type(sets, Floats | list[Floats])
 assert_type(stipple.generate("random", 64, sets=2, return_meta=True), stipple.Points | list[stipple.Points])
 frame = stipple.generate("random", 64, as_frame=True)
 stipple.write("frame.csv", frame)
+assert_type(stipple.plot([stipple.analyze("periodogram", x)] * 2), stipple.Picture)
 parameters = {"parameters": [{"name": "a", "range": [2, 3]}]}
 assert_type(stipple.generate("random", 64, parameters=parameters), Floats)
 

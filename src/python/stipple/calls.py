@@ -492,13 +492,13 @@ def write(path: Path, x: PointsLike | Iterable[PointsLike], *, domain: str | Non
           format: str = "", header: bool = True, meta: bool = False, single: bool = False,
           precision: Whole | None = None, threads: Whole = 0, max_memory: Number = 0,
           progress: Progress = None, **unknown: Never) -> None:
-    """Writes points to a file in the format of its extension: csv, txt, json, jsonl, npy, bin, utk,
-    psa, ply, svg; .gz and .zst compress it.
+    """Writes points to a file in the format of its extension: csv, tsv, txt, json, jsonl, npy, bin,
+    utk, ply, svg; .gz and .zst compress it.
 
     x          points (n, d) or (sets, n, d), a table, whose names and words are kept, or a list of
                sets
     domain     of the points; default: that of their meta, or the unit cube
-    format     instead of the extension's: list("formats") names all
+    format     instead of the extension's, such as "psa": list("formats") names all
     header     write names of columns, where the format has them
     meta       write the provenance, where the format does so only on request
     single     write float32 numbers, where the format is binary
@@ -617,6 +617,15 @@ def study(generators: Units, analyzers: Units, *, n: Whole | Iterable[Whole] = (
 
 
 def _named(x: Any) -> list[tuple[str, Given]]:
+def _by_name(x: Any) -> Any:
+    """Sets of an array (sets, n, d), and sets or reports of a list, by name: their numbers in x."""
+    items = x if isinstance(x, (list, tuple)) or isinstance(x, np.ndarray) and x.ndim == 3 else []
+    several = len(items) > 0 and all(
+        isinstance(one, Report) or is_frame(one) or isinstance(one, np.ndarray) and one.ndim == 2
+        for one in items)
+    return {str(k): one for k, one in enumerate(items)} if several else x
+
+
     sets = x if isinstance(x, Mapping) else {"points": x}
     if not sets:
         raise Error("x is empty; expected points, or a dictionary of points by name")
@@ -630,14 +639,14 @@ def _named(x: Any) -> list[tuple[str, Given]]:
     return list(zip(names, alike(found)))
 
 
-def report(path: Path, x: PointsLike | Mapping[str, PointsLike], *, threads: Whole = 0,
-           max_memory: Number = 0, progress: Progress = None, **unknown: Never) -> Page:
+def report(path: Path, x: PointsLike | Mapping[str, PointsLike] | Iterable[Frame], *,
+           threads: Whole = 0, max_memory: Number = 0, progress: Progress = None, **unknown: Never) -> Page:
     """Writes a self-contained HTML page that compares up to 12 sets of one dimension: points, or a
-    dictionary of points by name. Returns a Page, which notebooks display. Raises Error for sets that
-    cannot be compared, and if the file cannot be written."""
+    dictionary of points by name, or a list of them, named 0, 1, ... Returns a Page, which notebooks
+    display. Raises Error for sets that cannot be compared, and if the file cannot be written."""
     _only(report, unknown)
     name = path_of("path", path)
-    _stipple.report(os.fsencode(name), _named(x), run_options(threads, max_memory, progress))
+    _stipple.report(os.fsencode(name), _named(_by_name(x)), run_options(threads, max_memory, progress))
     return Page(name)
 
 
@@ -676,6 +685,7 @@ def _chart_of(x: Any, key: str) -> _stipple.Chart | None:
 Plotted: TypeAlias = (
     PointsLike | Report | Study | Mapping[str, PointsLike] | Mapping[str, Report] | list[StudyValue]
 )
+    | Iterable[Report] | Iterable[Frame]
 
 
 @overload  # type: ignore[misc]  # None is not meant by Axes
@@ -696,6 +706,7 @@ def plot(x: Any, ax: Any = None, *, key: str = "", width: Number = 0, height: Nu
             A Report, or a dictionary of Reports of one analyzer by name: they are shown by their
             curves; if they have none, by one number against the number of points.
             A Study, or a list of its rows: means against the number of points
+            Lists of sets or Reports, and arrays (sets, n, d), have the names 0, 1, ...
     ax      axes of Matplotlib, to draw there: points (n, 2), or a chart. A list of axes has one for
             each panel of the chart; single axes show the first panel
     key     the result to draw, of reports and studies; if there is none of this name, all that have
@@ -715,6 +726,7 @@ def plot(x: Any, ax: Any = None, *, key: str = "", width: Number = 0, height: Nu
     width = real("width", width, 0, 1e6, "a length; 0: automatic")
     height = real("height", height, 0, 1e6, "a length; 0: automatic")
     if labels is not None:
+    x = _by_name(x)
         x = _relabelled(x, labels)
     chart = _chart_of(x, text("key", key))
     if ax is None:
