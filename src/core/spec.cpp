@@ -61,6 +61,7 @@ class SpecParser {
     std::pair<std::string, std::string> setting() {
         std::string name = take_until("=,[]");
         if (name.empty()) complain("an option's name is expected");
+        std::ranges::replace(name, '_', '-');  // as arguments of Python are named
         if (!accept('=')) return {std::move(name), "true"};
         if (!accept('[')) {
             std::string value = take_until(",[]");

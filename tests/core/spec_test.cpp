@@ -22,6 +22,12 @@ TEST(SplitSpecs, HonoursBracketsAndOptionsWithCommas) {
     EXPECT_EQ(split_specs("a:x=1;b;c:y=2", "-g"), (Specs{"a:x=1", "b", "c:y=2"}));
 }
 
+TEST(ParseSpec, TakesNamesOfOptionsAsPythonHasThem) {
+    EXPECT_EQ(
+        parse_spec("cone:half_angle=3,axis=[a_b]").settings,
+        (std::vector<std::pair<std::string, std::string>>{{"half-angle", "3"}, {"axis", "a_b"}}));
+}
+
 TEST(SplitSpecs, NamesTheColumnOfWhatIsUnbalancedOrMissing) {
     EXPECT_EQ(error_of([] { split_specs("random,a:v=[0,[1]", "--generators"); }),
               "usage: --generators, column 12: this '[' has no ']'");

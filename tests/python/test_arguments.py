@@ -186,6 +186,12 @@ def test_sentences_name_argument_value_and_expectation():
         (lambda: stipple.analyze("moments", "points.csv"),
          "x is 'points.csv'; expected points (n, d) (read() returns the points of a file)"),
         (lambda: stipple.write("a.csv", X, header=1), "header is 1; expected True or False"),
+        (lambda: stipple.analyze("moments", None), "x is None; expected points (n, d)"),
+        (lambda: stipple.warp({1: 2}, "disk"), "x is {1: 2}; expected points (n, d) or (sets, n, d)"),
+        (lambda: stipple.generate("halton", bounds=(1, 0)), "bounds is (1, 0); expected low < high, both finite"),
+        (lambda: stipple.warp(X, "cone", half_angl=3), "unknown option 'half_angl' (did you mean 'half_angle'?)"),
+        (lambda: stipple.analyze("integration", X, integrand=lambda x: 3),
+         "the integrand gives the shape () for 16 points; expected (16,)"),
     ]:
         with pytest.raises(stipple.Error) as caught:
             call()

@@ -151,6 +151,12 @@ def test_descriptions_name_arguments():
     ("use fewer axes, or fewer coordinates with --column", "use fewer axes, or fewer coordinates with x[:, columns]"),
     ("--max-memory and --minimum-distance", "max_memory and minimum_distance"),
     ("--from contradicts --count", "from_ contradicts n"),
+    ("time-limit: -1 is outside", "time_limit: -1 is outside"),
+    ("star-discrepancy: time-limit: 'x' is no number", "star-discrepancy: time_limit: 'x' is no number"),
+    ("unknown option 'tme-limit'", "unknown option 'tme_limit'"),
+    ("did you mean 'time-limit'?", "did you mean 'time_limit'?"),
+    ("known: half-angle, axis", "known: half_angle, axis"),
+    ("known: star-discrepancy, poisson-disk", "known: star-discrepancy, poisson-disk"),
     ("iconv -f UTF-16 -t UTF-8 converts it; exp(-x), -r to r, a-d, x --- y", "iconv -f UTF-16 -t UTF-8 converts it; exp(-x), -r to r, a-d, x --- y"),
 ])
 def test_options_become_arguments(message, sentence):

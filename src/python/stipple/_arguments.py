@@ -42,6 +42,11 @@ def shown(value: object) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
+def counted(n: int, thing: str) -> str:
+    """ "1 name", "2 names"."""
+    return f"{n} {thing}{'s' * (n != 1)}"
+
+
 def refuse(name: str, value: object, expected: str, hint: str = "") -> Never:
     raise Error(f"{name} is {shown(value)}; expected {expected}", hint=hint)
 
@@ -211,4 +216,6 @@ def bounds_text(bounds: object) -> str:
         pairs = pairs[None]
     if pairs.ndim != 2 or pairs.shape[1] != 2 or not len(pairs):
         refuse("bounds", bounds, expected)
+    if not (np.isfinite(pairs).all() and (pairs[:, 0] < pairs[:, 1]).all()):
+        refuse("bounds", bounds, "low < high, both finite")
     return ",".join(f"{low!r}..{high!r}" for low, high in pairs.astype(float).tolist())

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import copy
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -168,6 +168,8 @@ def as_rows(x: ArrayLike, name: str = "x", most: int = 2, gaps: bool = False) ->
     shape = "(n, d)" if most == 2 else "(n, d) or (sets, n, d)"
     if isinstance(x, (str, bytes)) or hasattr(x, "read"):
         refuse(name, x, f"points {shape}", "read() returns the points of a file")
+    if isinstance(x, Mapping) or x is None:
+        raise Error(f"{name} is {shown(x)}; expected points {shape}", "input")
     try:
         array = np.asarray(x)
     except Exception as error:

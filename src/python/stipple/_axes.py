@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from . import _stipple
-from ._arguments import Floats, shown
+from ._arguments import Floats, counted, shown
 from ._errors import Error
 
 
@@ -71,7 +71,7 @@ def draw_chart(axes: list[Any], chart: _stipple.Chart, title: str | None) -> Non
     """Draws a chart's panels, each on axes of its own; a single one shows the first panel."""
     panels = chart.panels()
     if len(axes) not in (1, len(panels)):
-        raise Error(f"ax has {len(axes)} axes; the picture has {len(panels)} panels")
+        raise Error(f"ax has {len(axes)} axes; the picture has {counted(len(panels), 'panel')}")
     for ax, panel in zip(axes, panels):
         (_draw_bars if panel["categories"] else _draw_curves)(ax, panel)
         for name, x, _, low, high in panel["bands"]:

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: MIT
 """The package's exception and warning category."""
 
+import functools
 import keyword
 import re
 from collections.abc import Callable
+
+from . import _stipple
 
 # What the library says of the command line, and what a call has instead, from special to general.
 _SAYS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
@@ -15,7 +18,7 @@ _SAYS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"'stipple (\w+)'", r"\1()"),
     (r"generate --start 1", "start=1"),
     (r"--rescale or --bounds lo\.\.hi", "(x - low) / (high - low)"),
-    (r"--meta on the first command", "return_meta=True where they are made"),
+    (r"--meta on the command that wrote them", "return_meta=True where they are made"),
     (r"(?<=with )--column|--column(?= selects)", "x[:, columns]"),
     (r"--column", "pandas.read_csv()"),
     (r": -o 'NAME_\{set\}\.\.\.'", ""),
@@ -29,11 +32,24 @@ _SAYS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
 )
 
 
+@functools.cache
+def _options() -> frozenset[str]:
+    """Names of options with dashes that are not those of a unit, too."""
+    units = [unit for kind in _stipple.records().values() if isinstance(kind, list) for unit in kind]
+    options = {option["name"] for unit in units for option in unit["options"] if "-" in option["name"]}
+    return frozenset(options.difference(*((unit["name"], *unit["aliases"]) for unit in units)))
+
+
+def _argument(found: re.Match[str]) -> str:
+    return found[0].replace("-", "_") if found[0] in _options() else found[0]
+
+
 def in_python(message: str) -> str:
     """A message with arguments and calls for options and commands: "n: ..." for "--count: ..."."""
     for pattern, words in _SAYS:
         message = re.sub(pattern, words, message)
-    return message
+    message = re.sub(r"(unknown option ')([^']+)", lambda found: found[1] + found[2].replace("-", "_"), message)
+    return re.sub(r"(?:^|(?<=: )|(?<=, )|(?<='))[a-z]\w*(?:-\w+)+(?=: |, |'|$)", _argument, message)
 
 
 class Error(Exception):

@@ -27,6 +27,7 @@ from ._arguments import (
     Units,
     Whole,
     bounds_text,
+    counted,
     flag,
     listed,
     path as path_of,
@@ -356,12 +357,12 @@ def _values(function: Callable[[Floats], ArrayLike], x: Floats) -> Floats:
         if values.dtype.kind not in "fiub":
             raise TypeError
     except Exception:
-        raise Error(f"the integrand gives {type(found).__name__} for {len(x)} points; expected an "
-                    f"array ({len(x)},) of real numbers", "input") from None
+        raise Error(f"the integrand gives {type(found).__name__} for {counted(len(x), 'point')}; "
+                    f"expected an array ({len(x)},) of real numbers", "input") from None
     if values.shape != (len(x),):
         raise Error(
-            f"the integrand gives the shape {values.shape} for {len(x)} points; expected "
-            f"({len(x)},)", "input"
+            f"the integrand gives the shape {values.shape} for {counted(len(x), 'point')}; "
+            f"expected ({len(x)},)", "input"
         )
     if not np.isfinite(values).all():
         i = int(np.argmin(np.isfinite(values)))
@@ -616,7 +617,6 @@ def study(generators: Units, analyzers: Units, *, n: Whole | Iterable[Whole] = (
     return Study(StudyValue(*row)._replace(failure=in_python(row[-1])) for row in rows)
 
 
-def _named(x: Any) -> list[tuple[str, Given]]:
 def _by_name(x: Any) -> Any:
     """Sets of an array (sets, n, d), and sets or reports of a list, by name: their numbers in x."""
     items = x if isinstance(x, (list, tuple)) or isinstance(x, np.ndarray) and x.ndim == 3 else []
@@ -626,6 +626,7 @@ def _by_name(x: Any) -> Any:
     return {str(k): one for k, one in enumerate(items)} if several else x
 
 
+def _named(x: Any) -> list[tuple[str, Given]]:
     sets = x if isinstance(x, Mapping) else {"points": x}
     if not sets:
         raise Error("x is empty; expected points, or a dictionary of points by name")
@@ -657,8 +658,8 @@ def _relabelled(x: Any, labels: str | Iterable[str]) -> Any:
     generators = list(dict.fromkeys(row[0] for row in _rows(x))) if _is_study(x) else []
     values = generators or (list(x.values()) if isinstance(x, dict) else [x])
     if len(names) != len(values) or len(set(names)) != len(names):
-        raise Error(f"labels: {len(names)} names for {len(values)} "
-                    f"{'generators' if generators else 'sets'}; expected one for each, all different")
+        of = counted(len(values), "generator" if generators else "set")
+        raise Error(f"labels: {counted(len(names), 'name')} for {of}; expected one for each, all different")
     found = dict(zip(generators or names, names if generators else values))
     return [row._replace(generator=found[row.generator]) for row in x] if generators else found
 
@@ -684,8 +685,8 @@ def _chart_of(x: Any, key: str) -> _stipple.Chart | None:
 
 Plotted: TypeAlias = (
     PointsLike | Report | Study | Mapping[str, PointsLike] | Mapping[str, Report] | list[StudyValue]
-)
     | Iterable[Report] | Iterable[Frame]
+)
 
 
 @overload  # type: ignore[misc]  # None is not meant by Axes
@@ -705,8 +706,8 @@ def plot(x: Any, ax: Any = None, *, key: str = "", width: Number = 0, height: Nu
             are shown with the outline of their domain; others as pairs of coordinates.
             A Report, or a dictionary of Reports of one analyzer by name: they are shown by their
             curves; if they have none, by one number against the number of points.
-            A Study, or a list of its rows: means against the number of points
             Lists of sets or Reports, and arrays (sets, n, d), have the names 0, 1, ...
+            A Study, or a list of its rows: means against the number of points
     ax      axes of Matplotlib, to draw there: points (n, 2), or a chart. A list of axes has one for
             each panel of the chart; single axes show the first panel
     key     the result to draw, of reports and studies; if there is none of this name, all that have
@@ -725,8 +726,8 @@ def plot(x: Any, ax: Any = None, *, key: str = "", width: Number = 0, height: Nu
         text("title", title)
     width = real("width", width, 0, 1e6, "a length; 0: automatic")
     height = real("height", height, 0, 1e6, "a length; 0: automatic")
-    if labels is not None:
     x = _by_name(x)
+    if labels is not None:
         x = _relabelled(x, labels)
     chart = _chart_of(x, text("key", key))
     if ax is None:
