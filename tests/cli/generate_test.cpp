@@ -507,6 +507,20 @@ TEST(Generate, GoesOnWithTheThreadsThatStart) {
                   all);
 }
 
+TEST(Generate, TakesSharedOptionsBeforeTheVerb) {
+    const Sandbox box;
+    const std::string points = good(box.run({"generate", "halton", "-n", "4", "-f", "txt"}));
+    for (const char* words :
+         {"-q generate halton -n 4 -f txt", "-n 4 --quiet --format=txt generate halton",
+          "--threads 2 -f txt -n 4 generate halton"})
+        EXPECT_EQ(good(box.shell(std::string("stipple ") + words)), points) << words;
+    ASSERT_EQ(good(box.shell("stipple -q -o list generate halton -n 4 -f txt")), "");
+    EXPECT_EQ(box.read("list"), points);
+    expect_refusal(box.shell("stipple --scramble owen generate halton"), 2,
+                   "--scramble: options follow the verb, such as 'stipple generate halton -n 16'");
+    expect_refusal(box.shell("stipple -q"), 2, "unknown option '-q'");
+}
+
 // Scripts must not go on with points of an interrupted search, although it writes them.
 TEST(Generate, WritesTheBestPointsOfAnInterruptedSearchAndExits130) {
     const Sandbox box;

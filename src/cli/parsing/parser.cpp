@@ -195,6 +195,21 @@ void take_spec(const Spec& spec, const UnitInfo& unit, Arguments& arguments) {
     }
 }
 
+/// Moves options before the verb, such as the one of `stipple -q generate halton`, behind it.
+void put_verb_first(std::vector<std::string>& words) {
+    for (std::size_t at = 1; at < words.size(); ++at) {
+        const VerbInfo* info = find_verb(words[at]);
+        std::size_t i = 0;
+        while (info != nullptr && i < at) {
+            const auto end = words[i].find('=');
+            const CommonOption* known = find_common(words[i].substr(0, end), info->verb);
+            if (known == nullptr) break;
+            i += known->option.type == "flag" || end != std::string::npos ? 1 : 2;
+        }
+        if (i == at) return void(std::rotate(&words[0], &words[at], &words[at] + 1));
+    }
+}
+
 /// Parses a command line without a verb.
 Arguments parse_without_verb(const std::vector<std::string>& words) {
     Arguments arguments;
@@ -203,6 +218,9 @@ Arguments parse_without_verb(const std::vector<std::string>& words) {
     arguments.help = word == "-h" || word == "--help";
     arguments.version = word == "--version";
     if (arguments.help || arguments.version) return arguments;
+    if (word.starts_with('-') && std::ranges::any_of(words, find_verb))
+        fail(ErrorKind::usage,
+             "{}: options follow the verb, such as 'stipple generate halton -n 16'", word);
     if (word.starts_with('-')) complain("option", word, {"--help", "--version"});
     std::vector<std::string> names;
     for (const VerbInfo& info : verbs()) names.push_back(info.name);
@@ -225,6 +243,7 @@ const std::string* word_of_unit(const std::vector<std::string>& words, const Kin
 
 Arguments parse_arguments(int argc, const char* const* argv) {
     std::vector<std::string> words(argv + 1, argv + argc);
+    put_verb_first(words);
     const VerbInfo* info = words.empty() ? nullptr : find_verb(words.front());
     if (info == nullptr) return parse_without_verb(words);
     words.erase(words.begin());
