@@ -29,7 +29,9 @@ void require_finite(const PointSet& points) {
 std::string outside_hint(const Domain& domain) {
     std::string hint = "--domain names the domain of the points";
     if (domain.spec() == "unit-cube")
-        hint += ", or --meta on the first command; --rescale or --bounds lo..hi maps to the cube";
+        hint +=
+            ", or --meta on the command that wrote them; --rescale or --bounds lo..hi maps to "
+            "the cube";
     if (domain.cube_dimension() < domain.dimension())
         hint += "; float32 or few digits move points off a surface: write them as float64";
     return hint;

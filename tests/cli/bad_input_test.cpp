@@ -197,6 +197,11 @@ TEST(BadInput, PointsOutsideTheCubeAreCountedAndTheFirstNamed) {
     expect_refusal(outcome, 3, "2 of 3 points are outside");
     EXPECT_THAT(outcome.err, HasSubstr("p.csv: 2 of 3 points"));
     EXPECT_THAT(outcome.err, HasSubstr("--rescale"));
+    const Sandbox box;
+    EXPECT_THAT(box.shell("stipple generate halton -n 9 -f csv | stipple warp disk -f csv | "
+                          "stipple analyze moments")
+                    .err,
+                HasSubstr("or --meta on the command that wrote them"));
 }
 
 TEST(BadInput, DimensionsThatAnAnalyzerDoesNotTake) {

@@ -826,8 +826,10 @@ TEST(Plot, TitlesHaveOnlyTheOptionsThatTheUserTyped) {
 TEST(Plot, AndAnalyzeSayHowToGoOn) {
     const Sandbox box;
     good(box.shell("stipple generate random -w disk -o disk.csv"));
-    EXPECT_THAT(box.shell("stipple analyze chi-square disk.csv").err,
-                HasSubstr("; --domain names the domain of the points, or --meta on the first"));
+    EXPECT_THAT(
+        box.shell("stipple analyze chi-square disk.csv").err,
+        HasSubstr(
+            "; --domain names the domain of the points, or --meta on the command that wrote them"));
     EXPECT_THAT(box.shell("stipple analyze star-discrepancy disk.csv").err,
                 HasSubstr("; the measure is defined for the unit cube; --rescale or --bounds"));
     EXPECT_THAT(box.shell("stipple plot --generate random -d 3 -w sphere").err,
