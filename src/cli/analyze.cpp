@@ -105,10 +105,6 @@ class AnalyzeCall {
                                                            files_, several_analyzers()));
         for (const auto& text : request.checks) add_check(text);
         for (const auto& text : request.keys) add_key(text);
-        for (const auto& analysis : analyses_)
-            if (!request.keys.empty() && !keys_.contains(analysis.get()))
-                fail(ErrorKind::usage, "--keys: none of these is a result of {}: {}",
-                     analysis->analyzer().name, join(request.keys, ", "));
     }
 
     int go() {
@@ -382,12 +378,11 @@ class AnalyzeCall {
         const Analysis& analysis = analysis_of(text, "--keys");
         const Analyzer& analyzer = analysis.analyzer();
         const std::string key = without_name(text, analyzer);
-        if (key.empty() || std::ranges::none_of(analyzer.results, [&key](const ResultKey& result) {
-                return names_result(result.key, key);
-            }))
+        if (key.empty() || !has_result(analyzer, key))
             fail_with_hint(ErrorKind::usage, suggest(key, result_keys(analyzer)),
                            "--keys: {} has no result '{}'", analyzer.name, key);
-        keys_[&analysis].push_back(key);
+        for (const auto& each : analyses_)
+            if (&each->analyzer() == &analyzer) keys_[each.get()].push_back(key);
     }
 
     /// Checks keys that only a word in capitals, such as OUTPUT, allowed before the results were
@@ -404,12 +399,6 @@ class AnalyzeCall {
                     fail_with_hint(ErrorKind::usage, suggest(key, known),
                                    "--keys: {} has no result '{}'", analysis->analyzer().name, key);
             }
-    }
-
-    static std::string without_name(const std::string& key, const Analyzer& analyzer) {
-        if (find_result(analyzer, key)) return key;
-        if (key == analyzer.name) return "value";
-        return key.starts_with(analyzer.name + ".") ? key.substr(analyzer.name.size() + 1) : key;
     }
 
     [[nodiscard]] const Analysis& analysis_of(const std::string& key,
@@ -513,6 +502,7 @@ class AnalyzeCall {
         require_keys();
         std::vector<Measurement> all;
         for (const auto& [measurement, analysis] : in_order()) {
+            if (!keys_.empty() && !keys_.contains(analysis)) continue;
             Measurement& m = all.emplace_back(std::move(*measurement));
             if (!request_.seconds) m.seconds.reset();
             if (keys_.empty()) continue;

@@ -46,26 +46,37 @@ void refuse_twice(const std::vector<Chosen<Unit>>& list, std::string_view who) {
                 fail(ErrorKind::usage, "{}: '{}' is given twice", who, list[i].spec);
 }
 
-/// Checks the keys to keep. @throws Error(usage) for a key that no measure has, and for a measure
-/// that has none of the keys
-void check_keys(const std::vector<std::string>& wanted,
-                const std::vector<Chosen<Analyzer>>& measures) {
-    const auto has = [](const Chosen<Analyzer>& measure, const std::string& key) {
-        return std::ranges::any_of(measure.unit->results,
-                                   [&](const ResultKey& r) { return names_result(r.key, key); });
-    };
+/// Whether a key begins with the analyzer's name.
+bool is_of(const std::string& key, const Analyzer& analyzer) {
+    return (key + ".").starts_with(analyzer.name + ".");
+}
+
+/// Gives each measure its keys. @throws Error(usage) for a key that no measure has, and for a
+/// measure that has none of the keys
+void choose_keys(const std::vector<std::string>& wanted, std::vector<Chosen<Analyzer>>& measures) {
     std::vector<std::string> known;
     for (const auto& measure : measures)
         for (const ResultKey& result : measure.unit->results) known.push_back(result.key);
-    for (const auto& key : wanted)
-        if (std::ranges::none_of(measures, [&](const auto& m) { return has(m, key); }))
+    for (const auto& key : wanted) {
+        const bool named =
+            std::ranges::any_of(measures, [&](const auto& m) { return is_of(key, *m.unit); });
+        bool found = false;
+        for (auto& measure : measures) {
+            const std::string own = without_name(key, *measure.unit);
+            if ((named && !is_of(key, *measure.unit)) || !has_result(*measure.unit, own)) continue;
+            measure.keys.push_back(own);
+            found = true;
+        }
+        if (!found)
             fail_with_hint(ErrorKind::usage, suggest(key, known),
                            "--keys: no measure of the study has a result '{}'", key);
+    }
     for (const auto& measure : measures)
-        if (!wanted.empty() &&
-            std::ranges::none_of(wanted, [&](const auto& key) { return has(measure, key); }))
-            fail(ErrorKind::usage, "--keys: none of these is a result of {}: {}",
-                 measure.unit->name, join(wanted, ", "));
+        if (!wanted.empty() && measure.keys.empty())
+            fail_with_hint(ErrorKind::usage,
+                           fmt::format("add one, or leave out {}", measure.unit->name),
+                           "--keys: none of these is a result of {}: {}", measure.unit->name,
+                           join(wanted, ", "));
 }
 
 template <class Unit>
@@ -94,6 +105,19 @@ bool names_result(const std::string& result, std::string_view wanted) {
            parts.end();
 }
 
+bool has_result(const Analyzer& analyzer, std::string_view key) {
+    return std::ranges::any_of(analyzer.results,
+                               [&](const ResultKey& r) { return names_result(r.key, key); });
+}
+
+std::string without_name(const std::string& key, const Analyzer& analyzer) {
+    if (!is_of(key, analyzer)) return key;
+    const bool alone = key == analyzer.name;
+    std::string rest = alone ? "value" : key.substr(analyzer.name.size() + 1);
+    // An output of a model may have the analyzer's name.
+    return !find_result(analyzer, key) || (!alone && has_result(analyzer, rest)) ? rest : key;
+}
+
 Sweep::Sweep(SweepRequest request)
     : request_(std::move(request)), warp_names_(join(request_.warps, " ")) {
     choose();
@@ -118,7 +142,7 @@ void Sweep::choose() {
     if (measures_.empty()) fail(ErrorKind::usage, "--analyze: name at least one analyzer");
     refuse_twice(generators_, "generators");
     refuse_twice(measures_, "analyze");
-    check_keys(request_.keys, measures_);
+    choose_keys(request_.keys, measures_);
 }
 
 /// Index of the list with a generator's own warps and those of all generators.

@@ -45,7 +45,8 @@ struct Chosen {
     Values values = {};
     std::string spec = {};  ///< without options at their defaults; with its own warps
     std::vector<std::pair<std::string, std::string>> options = {};  ///< all options
-    std::size_t warps = 0;  ///< index of a generator's WarpList
+    std::size_t warps = 0;               ///< index of a generator's WarpList
+    std::vector<std::string> keys = {};  ///< results of an analyzer to keep; empty: all numbers
 };
 
 /// Warps and scrambles of some generators, in order.
@@ -83,6 +84,12 @@ struct UnitRange {
 /// Whether `wanted` is the name of a result, or a part of it between dots. Parts of the name that
 /// are in capitals match any word.
 bool names_result(const std::string& result, std::string_view wanted);
+
+/// Whether `key` is the name of a result of the analyzer, or a part of it.
+bool has_result(const Analyzer& analyzer, std::string_view key);
+
+/// A key without the name of its analyzer before it; "value" for the name alone.
+std::string without_name(const std::string& key, const Analyzer& analyzer);
 
 class Sweep {
   public:

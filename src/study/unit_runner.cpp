@@ -190,7 +190,7 @@ UnitResult measured(const SweepRequest& request, const Chosen<Analyzer>& measure
         limited.check_stop();  // a report that was cut short is incomplete
     });
     if (!result.failure.empty()) return result;
-    result.numbers = numbers_of(report, request.keys, request.curves);
+    result.numbers = numbers_of(report, measure.keys, request.curves);
     if (result.numbers.empty() && report.find("lower") && report.find("upper"))
         result.failure = fmt::format("its value is not known exactly; it is between {} and {}",
                                      format_number(report.number("lower")),

@@ -256,6 +256,22 @@ TEST(Study, AMeasureThatCannotTakeTheWarpLooksBeforeIt) {
     }
 }
 
+TEST(Study, KeepsKeysOfOneAnalyzer) {
+    const Sandbox box;
+    const std::string study =
+        "stipple study halton -n 16 --no-seconds --analyze "
+        "star-discrepancy,l2-discrepancy --keys ";
+    std::vector<std::string> kept;
+    for (const Row& row : rows_of(good(
+             box.shell(study + "star-discrepancy.value,l2-discrepancy.centered.value,squared"))))
+        if (!row.at("key").ends_with("squared"))
+            kept.push_back(row.at("measure") + " " + row.at("key"));
+    EXPECT_EQ(kept, (std::vector<std::string>{"star-discrepancy value",
+                                              "l2-discrepancy centered.value"}));
+    expect_refusal(box.shell(study + "star-discrepancy.value"), 2,
+                   "add one, or leave out l2-discrepancy");
+}
+
 // Warps of one generator, beside those of all; the values are those of analyze for such sets.
 TEST(Study, GeneratorsMayHaveTheirOwnWarpsAndOptions) {
     const Sandbox box;
@@ -1046,7 +1062,8 @@ TEST(Study, BadInputIsOneLineThatHelps) {
         {"--generators random --analyze star-discrepancy --keys worst_bx",
          "stipple: --keys: no measure of the study has a result 'worst_bx'; "},
         {"--generators random --analyze moments,star-discrepancy --keys value",
-         "stipple: --keys: none of these is a result of moments: value\n"},
+         "stipple: --keys: none of these is a result of moments: value; add one, or leave "
+         "out moments\n"},
         {"points.csv --generators random --analyze moments",
          "stipple: unknown generator 'points.csv'"},
         {"--generators 'random -w dsk' --analyze moments",

@@ -307,8 +307,8 @@ const Row rows[] = {  // an array, as a vector would copy each
     {"--full", "", "", "text output with all numbers of long lists, as tables", analyze,
      &AnalyzeRequest::full},
     {"--keys", "KEY,...", "",
-     "results to print, by name or by a dotted part of it: value, worst_box, mean[0]; of several "
-     "analyzers: ANALYZER.KEY; default: all",
+     "results to print, by name or by a dotted part of it: value, worst_box, mean[0]; with several "
+     "analyzers ANALYZER.KEY, which prints these alone; default: all",
      analyze, &AnalyzeRequest::keys},
     {"--explain", "", "",
      "text output that explains each result: its meaning, which of two values is better, and what "
@@ -339,7 +339,7 @@ const Row rows[] = {  // an array, as a vector would copy each
      plot, &PlotRequest::draw},
     {"--keys", "KEY,...", "",
      "results to keep, by name or by a dotted part of it: value, radial.power, mean[0]; "
-     "default: all numbers",
+     "ANALYZER.KEY is kept of this analyzer alone; default: all numbers",
      study, &SweepRequest::keys},
     {"--summary", "", "",
      "means with standard errors, t and bootstrap intervals, medians, root mean squares, and "
