@@ -18,9 +18,11 @@
 namespace stipple::testing::help_test {
 
 using namespace stipple::cli;
+using ::testing::AllOf;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 namespace {
 
@@ -247,6 +249,25 @@ TEST(Help, ShowsPointsInLetters) {
     EXPECT_EQ(dots("image"), "");
     EXPECT_EQ(dots("owen"), "");
     EXPECT_EQ(dots("moments"), "");
+}
+
+TEST(Help, KnowsTheNamesOfOtherPackages) {
+    const Sandbox box;
+    const std::vector<std::pair<const char*, const char*>> names = {
+        {"fast_forward", "--start 2"},
+        {"random_base2", "-n 2^2 --order gray"},
+        {"fill_space", "--radius 0.4 --bounded"},
+        {"update_discrepancy", "l2-discrepancy five.csv --kind centered"},
+        {"geometric_discrepancy", "spanning-tree five.csv"},
+        {"qmc.integers", "stipple warp integers --low 0"},
+        {"qmc LatinHypercube", "stipple generate latin-hypercube"},
+        {"scipy.stats.qmc Halton", "stipple generate halton"}};
+    for (const auto& [name, command] : names)
+        EXPECT_THAT(good(box.shell(std::string("stipple help ") + name)),
+                    AllOf(StartsWith("SciPy\n"), HasSubstr(command)))
+            << name;
+    EXPECT_EQ(good(box.run({"help", "van_der_corput"})), good(box.run({"help", "van-der-corput"})));
+    EXPECT_EQ(box.run({"help", "qmc", "nothing"}).code, 2);
 }
 
 // Only analyze accepts lists of units; help is available for all these words.

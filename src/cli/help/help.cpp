@@ -312,9 +312,10 @@ HelpPage page_of_topic(const Topic& topic) {
     return page;
 }
 
-/// "star discrepancy" as the name of a unit or topic.
+/// "star discrepancy" or "star_discrepancy" as the name of a unit or topic.
 std::string hyphenated(std::string name) {
     std::ranges::replace(name, ' ', '-');
+    std::ranges::replace(name, '_', '-');
     return name;
 }
 
@@ -345,6 +346,7 @@ std::string help_of_word(const std::string& name) {
     }
     if (const std::string lines = coming_from(name); !lines.empty())
         found += (found.empty() ? "" : "\n") + lines;
+    if (found.empty()) found = coming_from(name.substr(name.rfind(' ') + 1));  // qmc Halton
     if (!found.empty()) return found;
     refuse_name(name);
 }
