@@ -658,6 +658,12 @@ int ReproduceRequest::perform(Session& session) const {
     if (inputs.size() != 1)
         fail(ErrorKind::usage, "reproduce takes one FILE; {} are given", inputs.size());
     const Original original = read_original(inputs[0], session.run());
+    if (was_interrupted(original.meta))
+        fail_with_hint(
+            ErrorKind::input,
+            "the file is the only copy of its points; the whole search finds other ones",
+            "{}: its search was interrupted, and cannot be stopped at the same place again",
+            original.name);
     const std::string changed =
         reading_provenance(original, [&] { return changed_rules(original.meta); });
     if (!changed.empty()) return say(original, {}, changed, *this);

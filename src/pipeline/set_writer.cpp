@@ -139,10 +139,6 @@ void write_side_files(const std::vector<SideFile>& files, io::Outputs& outputs,
     for (const SideFile& file : files) outputs.add(file.path, run.stop).write(file.bytes);
 }
 
-bool was_interrupted(const Provenance& meta) {
-    return std::ranges::count(meta.found, std::pair<std::string, std::string>(interrupted)) > 0;
-}
-
 /// Writes the sets [first, last). Returns false if the pipe was closed.
 /// @param open the first set, already open; replaced by the later ones
 /// @param part context of the first set
@@ -197,6 +193,10 @@ bool waits_for_all(const SetStream& stream, const Target& target) {
 }
 
 }  // namespace
+
+bool was_interrupted(const Provenance& meta) {
+    return std::ranges::count(meta.found, std::pair<std::string, std::string>(interrupted)) > 0;
+}
 
 Target with_own_columns(Target target, const PointSet& points) {
     if (points.densities.empty()) return target;

@@ -42,6 +42,9 @@ struct Target {
     std::function<void(const SetStream&)> take = {};
 };
 
+/// Whether the points are the best of a search that was stopped.
+bool was_interrupted(const Provenance& meta);
+
 /// Format of the target: the one it names, or that of its path's extension, or csv for a path
 /// without extension.
 /// @throws Error(usage) for an unknown extension

@@ -45,6 +45,18 @@ void replace_in(const Sandbox& box, const std::string& file, const std::string& 
 
 }  // namespace
 
+// A search that was stopped early has no end that could be compared.
+TEST(Reproduce, RefusesInterruptedSearchesAtOnce) {
+    const Sandbox box;
+    good(box.shell("stipple generate optimized -n 8 --effort 1 -o a.json"));
+    expect_identical(box, "a.json");
+    replace_in(box, "a.json", R"("found":{)", R"("found":{"ended":"interrupted",)");
+    EXPECT_EQ(
+        refusal(box, "a.json"),
+        "stipple: a.json: its search was interrupted, and cannot be stopped at the same place "
+        "again; the file is the only copy of its points; the whole search finds other ones\n");
+}
+
 // Every output with provenance can be reproduced, in any format and with any options.
 TEST(Reproduce, MakesAgainWhatGenerateWrote) {
     const Sandbox box;
