@@ -32,7 +32,7 @@ assert_type(stipple.generate("random", 64, parameters=parameters), Floats)
 eight = np.int64(8)
 assert_type(stipple.generate("halton", eight, np.int32(2), seed=np.uint8(3), leap=np.int16(409), threads=eight),
             Floats)
-stipple.generate("halton", eight, seed=eight, start=eight, sets=eight, return_meta=True, max_memory=np.float32(1e9))
+stipple.generate("random", eight, seed=eight, start=eight, sets=eight, return_meta=True, max_memory=np.float32(1e9))
 stipple.generate("poisson-disk", radius=np.float32(0.1), bounds=(np.float32(0), eight))
 stipple.integrate(lambda x: x[:, 0], "random", eight, eight, start=eight, replications=eight, confidence=np.float32(0.9))
 stipple.study("random", "moments", n=[eight], d=np.int8(2), seeds=eight, seed=eight)
