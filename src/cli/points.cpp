@@ -198,15 +198,6 @@ std::vector<std::string> changed_options(const Provenance& from, const Generator
     return changed;
 }
 
-std::string shell_word(const std::string& word) {
-    constexpr std::string_view plain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,./:@%^";
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-    std::string quoted = word;
-    replace_all(quoted, "'", "'\\''");
-    return "'" + quoted + "'";
-}
-
 std::string typed_options(const Arguments& arguments,
                           std::initializer_list<std::string_view> names) {
     std::string text;

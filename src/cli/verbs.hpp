@@ -47,9 +47,6 @@ std::string output_of(const Request& request);
 /// Whether the path is "-" and standard output is a terminal; always false under mpirun.
 bool is_terminal(const std::string& path);
 
-/// A word quoted for a shell if necessary.
-std::string shell_word(const std::string& word);
-
 /// The common options with these names as typed, in the order of `names`, quoted for a shell.
 std::string typed_options(const Arguments& arguments,
                           std::initializer_list<std::string_view> names);

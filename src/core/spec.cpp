@@ -115,19 +115,35 @@ Values Spec::values(const Schema& schema) const {
 
 Spec parse_spec(std::string_view text) { return SpecParser(text).parse(); }
 
+namespace {
+
+/// Adds an option to a spec: the first after a colon, others after commas.
+void add_setting(std::string& spec, std::string_view name, const std::string& value, bool first) {
+    const bool brackets = value.find_first_of(", [") != std::string::npos;
+    spec += fmt::format(fmt::runtime(brackets ? "{}{}=[{}]" : "{}{}={}"), first ? ':' : ',', name,
+                        value);
+}
+
+}  // namespace
+
+std::string format_spec(const Spec& spec) {
+    std::string text = spec.name;
+    if (!spec.coordinates.empty()) text += "@" + format_coordinates(spec.coordinates);
+    for (const auto& [name, value] : spec.settings)
+        add_setting(text, name, value, &name == &spec.settings.front().first);
+    return text;
+}
+
 std::string format_spec(std::string_view name, const Values& values, const Schema& schema) {
     std::string spec(name);
-    char separator = ':';
+    bool first = true;
     for (const Option& option : schema.options()) {
         const auto& item = values.find(option.name);
         const bool unset = option.optional && !item.given;
         const std::string text = format_value(item.value);
         // Compared as text: -0 equals 0, but is a different value.
         if (unset || text == format_value(option.fallback)) continue;
-        const bool brackets = text.find_first_of(", [") != std::string::npos;
-        spec += fmt::format(fmt::runtime(brackets ? "{}{}=[{}]" : "{}{}={}"), separator,
-                            option.name, text);
-        separator = ',';
+        add_setting(spec, option.name, text, std::exchange(first, false));
     }
     return spec;
 }

@@ -26,6 +26,9 @@ struct Spec {
     [[nodiscard]] Values values(const Schema& schema) const;
 };
 
+/// A spec as text that parse_spec() reads back.
+std::string format_spec(const Spec& spec);
+
 /// Parses one spec. @throws Error(usage) naming the column of the first error
 Spec parse_spec(std::string_view text);
 

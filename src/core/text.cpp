@@ -316,6 +316,15 @@ std::string cut_short(std::string_view text) {
     return out;
 }
 
+std::string shell_word(const std::string& word) {
+    constexpr std::string_view plain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,./:@%^";
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+    std::string quoted = word;
+    replace_all(quoted, "'", "'\\''");
+    return "'" + quoted + "'";
+}
+
 std::string shown(std::string_view text) {
     const std::string_view front = front_of(text);
     if (front.size() == text.size()) return "'" + printable(text) + "'";

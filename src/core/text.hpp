@@ -89,6 +89,9 @@ std::string printable(std::string_view text);
 /// input.
 std::string cut_short(std::string_view text);
 
+/// A word quoted for a shell if necessary.
+std::string shell_word(const std::string& word);
+
 /// Quotes untrusted text for a message: escaped; beyond 80 letters truncated, with its size in
 /// bytes.
 std::string shown(std::string_view text);

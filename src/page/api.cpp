@@ -8,6 +8,7 @@
 #include "io/output.hpp"
 #include "page/html.hpp"
 #include "page/measures.hpp"
+#include "pipeline/pipeline.hpp"
 #include "pipeline/set_writer.hpp"
 #include "stipple/study.hpp"
 
@@ -24,6 +25,7 @@ void write_report(const std::string& path, std::span<const NamedSet> sets,
         if (points.dimension() != sets.front().points.dimension())
             fail(ErrorKind::usage, "'{}' has {} coordinates; the first set has {}", name,
                  points.dimension(), sets.front().points.dimension());
+        check_set(points);
         if (!names.insert(name).second) fail(ErrorKind::usage, "two sets have the name '{}'", name);
         title.push_back(name);
     }

@@ -47,34 +47,9 @@ DomainPtr domain_or_cube(const PointSet& points) {
     return points.domain ? points.domain : unit_cube(points.dimension());
 }
 
-/// @throws Error(usage) unless each point has one, or none; Error(input) unless they are above 0
-void check_densities(const PointSet& points) {
-    const auto& densities = points.densities;
-    if (!densities.empty() && densities.size() != points.count())
-        fail(ErrorKind::usage, "{} densities for {} points", densities.size(), points.count());
-    for (std::size_t i = 0; i < densities.size(); ++i)
-        if (!(densities[i] > 0))
-            fail(ErrorKind::input, "point {}: its density is {}; expected a number above 0", i,
-                 densities[i]);
-}
-
-/// Checks what a caller may have put into a set, for calls that do not check it later.
-/// @throws Error(usage), Error(input)
-void check(const PointSet& points) {
-    if (points.domain && points.domain->dimension() != points.dimension())
-        fail(ErrorKind::usage, "points of {} coordinates are not on {}", points.dimension(),
-             points.domain->title());
-    check_densities(points);
-    const auto numbers = points.flat();
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-        if (!std::isfinite(numbers[i]))
-            fail(ErrorKind::input, "point {}: coordinate {} is {}; expected a finite number",
-                 i / points.dimension(), i % points.dimension() + 1, numbers[i]);
-}
-
 /// A checked copy with a domain.
 PointSet checked(PointSet set) {
-    check(set);
+    check_set(set);
     set.domain = domain_or_cube(set);
     return set;
 }
@@ -96,7 +71,9 @@ PointSet generate(std::string_view text, const Request& request, const Settings&
                   const RunContext& run) try {
     const Spec spec = spec_without_coordinates(text);
     const Generator& generator = find_generator(spec.name);
-    return generate(generator, request, merged(spec, generator.options, settings), run);
+    SetsToMake job{&generator, merged(spec, generator.options, settings), request};
+    job.command = command_of(job);
+    return GeneratedSets(std::move(job), run).made(0, run);
 } catch (...) {
     throw_to_caller();
 }
@@ -182,7 +159,7 @@ void Sampler::fill(std::uint64_t first, std::span<double> rows) const {
     const std::uint64_t count = rows.size() / dimension();
     if (first > state_->end || count > state_->end - first)
         fail(ErrorKind::usage, "points {} to {} are beyond the last one, which is {}", first,
-             first + count - 1, state_->end - 1);
+             first + std::min(count - 1, ~first), state_->end - 1);
     std::unique_lock lock(state_->in_turn, std::defer_lock);
     if (!state_->sequence->random_access()) lock.lock();
     state_->sequence->fill(state_->plan.start + first, rows);
@@ -213,7 +190,7 @@ DomainPtr domain_named(std::string_view spec, std::size_t dimension, const RunCo
 double measure_of(const PointSet& points) { return domain_or_cube(points)->measure(); }
 
 std::vector<double> densities(const PointSet& points) try {
-    check(points);
+    check_set(points);
     if (!points.densities.empty()) return points.densities;
     const DomainPtr domain = domain_or_cube(points);
     std::vector<double> density(points.count());
@@ -281,6 +258,11 @@ void write(const std::string& path, std::span<const PointSet> sets, const WriteO
         fail(ErrorKind::usage, "a precision of {} is outside [0, 1000]", *options.precision);
     std::vector<PointSet> copies;
     for (const PointSet& set : sets) copies.push_back(checked(set));
+    // The record of the first set is that of all, which sets of different commands do not have.
+    if (std::ranges::any_of(sets, [&](const PointSet& set) {
+            return set.provenance.command != sets.front().provenance.command;
+        }))
+        copies.front().provenance = without_making(copies.front().provenance);
     write_sets(std::move(copies), target, run);
 } catch (...) {
     throw_to_caller();

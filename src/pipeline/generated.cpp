@@ -282,6 +282,19 @@ SetsToMake completed(SetsToMake asked, const RunContext& run) {
 
 }  // namespace
 
+std::string command_of(const SetsToMake& asked) {
+    const auto& [generator, options, request, sets, warps, shard, known] = asked;
+    std::string text =
+        "stipple generate " + shell_word(format_spec(generator->name, options, generator->options));
+    if (request.count) text += fmt::format(" --count {}", *request.count);
+    if (request.dimension) text += fmt::format(" --dimension {}", *request.dimension);
+    if (request.start > 0) text += fmt::format(" --start {}", request.start);
+    if (request.bounds) text += " --bounds " + shell_word(format_box(*request.bounds));
+    for (const Spec& warp : warps) text += " --warp " + shell_word(format_spec(warp));
+    if (sets > 1) text += fmt::format(" --sets {}", sets);
+    return text + fmt::format(" --seed {}", request.seed);
+}
+
 Box bounds_for(const SetsToMake& asked, std::string_view text) {
     const auto ranges = static_cast<std::size_t>(1 + std::ranges::count(text, ','));
     if (!asked.warps.empty()) {
@@ -629,7 +642,7 @@ Provenance GeneratedSets::provenance(std::uint64_t set, std::uint64_t count) con
                     .domain = domain_->spec(),
                     .bounds = {},
                     .shard = {},
-                    .command = {},
+                    .command = asked_.command,
                     .independent = generator_.traits.independent};
     std::erase_if(meta.options, [this](const auto& option) {  // options that only write side files
         return std::ranges::find(generator_.writes, option.first) != generator_.writes.end();

@@ -39,6 +39,9 @@ struct SetsToMake {
     std::string command = {};  ///< command line, for the provenance
 };
 
+/// The command line that makes the same sets, for callers that have none.
+std::string command_of(const SetsToMake& asked);
+
 /// Parses a box "lo..hi,...": one range for all coordinates, one for each coordinate of the points,
 /// or one for each coordinate that no warp takes. The number of ranges may determine the dimension.
 /// @throws Error(usage)

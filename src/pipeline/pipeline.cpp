@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -88,6 +89,28 @@ void require_unit_cube(const PointSet& points) {
     const std::size_t d = points.dimension();
     require_in_cube(points, named_or_all({}, d), fmt::format("the unit cube [0, 1]^{}", d),
                     "the measure is defined for the unit cube; " + way_to_cube(points));
+}
+
+void check_densities(const PointSet& points) {
+    const auto& densities = points.densities;
+    if (!densities.empty() && densities.size() != points.count())
+        fail(ErrorKind::usage, "{} densities for {} points", densities.size(), points.count());
+    for (std::size_t i = 0; i < densities.size(); ++i)
+        if (!(densities[i] > 0))
+            fail(ErrorKind::input, "point {}: its density is {}; expected a number above 0", i,
+                 densities[i]);
+}
+
+void check_set(const PointSet& points) {
+    if (points.domain && points.domain->dimension() != points.dimension())
+        fail(ErrorKind::usage, "points of {} coordinates are not on {}", points.dimension(),
+             points.domain->title());
+    check_densities(points);
+    const auto numbers = points.flat();
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (!std::isfinite(numbers[i]))
+            fail(ErrorKind::input, "point {}: coordinate {} is {}; expected a finite number",
+                 i / points.dimension(), i % points.dimension() + 1, numbers[i]);
 }
 
 void require_cube_domain(const PointSet& points, const Analyzer& analyzer) {

@@ -40,6 +40,14 @@ void require_in_cube(const PointSet& points, std::span<const std::size_t> coordi
 /// Calls require_in_cube() for all coordinates, with way_to_cube() as the hint.
 void require_unit_cube(const PointSet& points);
 
+/// Checks the densities of a set: each point has one above 0, or none has one.
+/// @throws Error(usage), Error(input)
+void check_densities(const PointSet& points);
+
+/// Checks what a caller may have put into a set: its domain, densities and numbers.
+/// @throws Error(usage), Error(input)
+void check_set(const PointSet& points);
+
 /// Checks the domain of points for an analyzer of the unit cube: even points in the cube may be a
 /// sample of another domain. @throws Error(input)
 void require_cube_domain(const PointSet& points, const Analyzer& analyzer);

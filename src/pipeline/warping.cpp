@@ -206,8 +206,8 @@ SetStream stream_of(io::PointStream& points, const DomainPtr& on) {
                 }};
 }
 
-/// Provenance once a density column is added: keeps names, levels, size and domain, drops the
-/// recipe.
+}  // namespace
+
 Provenance without_making(const Provenance& meta) {
     Provenance known;
     known.columns = meta.columns;
@@ -217,8 +217,6 @@ Provenance without_making(const Provenance& meta) {
     known.domain = meta.domain;
     return known;
 }
-
-}  // namespace
 
 std::size_t dimension_before_step(std::string_view step, std::size_t after, const RunContext& run) {
     if (is_cut(step)) return after;

@@ -31,6 +31,9 @@ struct Unwarped {
 /// unknown.
 std::vector<std::uint32_t> digit_bases(const Provenance& meta);
 
+/// A provenance without its recipe: names, levels, size and domain.
+Provenance without_making(const Provenance& meta);
+
 /// Whether a step of a provenance says that numbers were truncated.
 inline bool is_cut(std::string_view step) {
     return step == cut_to_single || step.starts_with(cut_to_digits);

@@ -113,6 +113,7 @@ SetsToMake to_make(const Asked& asked) {
     if (!asked.bounds.empty())
         make.request.bounds =
             parse_box(asked.bounds, plan_for(generator, make.request, make.options).dimension);
+    make.command = command_of(make);
     return make;
 }
 

@@ -208,6 +208,10 @@ class StudyFile::TableReader {
     void end_unit() {
         if (!like_) return;
         const std::uint64_t unit = own_unit();
+        // Memory and files may be there now: such a unit is measured again.
+        if (failure_ &&
+            (failure_->reason.starts_with("limit: ") || failure_->reason.starts_with("file: ")))
+            return;
         if (failure_) file_.note_failure(unit, *failure_);
         file_.store({unit, unit + 1}, begin_, end_ - begin_);
         usual_keys_[like_->measure] = {*like_, std::move(keys_)};
@@ -315,10 +319,11 @@ void StudyFile::lock_journal() {
     journal_ = opened(journal_of(path_));
     struct stat locked = {};
     struct stat there = {};
-    const bool alone = ::flock(journal_, LOCK_EX | LOCK_NB) == 0;
+    const bool alone = ::flock(journal_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+    if (!alone) fail(ErrorKind::io, "{}: another study is writing to it", path_);
     // Another process may have finished in the meantime: then the opened file has become its table.
-    if (!alone || ::fstat(journal_, &locked) != 0 ||
-        ::stat(journal_of(path_).c_str(), &there) != 0 || locked.st_ino != there.st_ino)
+    if (::fstat(journal_, &locked) != 0 || ::stat(journal_of(path_).c_str(), &there) != 0 ||
+        locked.st_ino != there.st_ino)
         fail(ErrorKind::io, "{}: another study is writing to it", path_);
 }
 

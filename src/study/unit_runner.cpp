@@ -70,16 +70,19 @@ void attempt(UnitResult& result, double& seconds, std::optional<double> limit,
     try {
         if (over_time(run, limit, work))
             result.failure = fmt::format("time limit: not done after {} s", *limit);
-    } catch (const Error& e) {
+    } catch (const std::exception& thrown) {
+        const Error e = caught_error();
         if (e.kind() == ErrorKind::cancelled) throw;
         const bool limited = e.kind() == ErrorKind::limit;
-        result.failure = one_line(fmt::format("{}{}", limited ? "limit: " : "", e.what()));
-        result.out_of_memory = limited && e.hint().find("--max-memory") != std::string::npos;
-    } catch (const std::bad_alloc&) {
-        result.failure = "limit: out of memory";
-        result.out_of_memory = true;
-    } catch (const std::exception& e) {
-        result.failure = one_line(fmt::format("internal error: {}", e.what()));
+        const bool file = e.kind() == ErrorKind::io && dynamic_cast<const Error*>(&thrown);
+        result.failure = one_line(fmt::format("{}{}",
+                                              limited ? "limit: "
+                                              : file  ? "file: "
+                                                      : "",
+                                              e.what()));
+        result.out_of_memory =
+            limited && (dynamic_cast<const std::bad_alloc*>(&thrown) != nullptr ||
+                        e.hint().find("--max-memory") != std::string::npos);
     }
     seconds = run.seconds ? run.seconds() - start : 0;
 }

@@ -626,6 +626,30 @@ TEST(Study, ResumeCompletesAFinishedTableThatWasCut) {
     }
 }
 
+TEST(Study, ResumeMeasuresAgainWhatLackedAFileOrMemory) {
+    const Sandbox box;
+    const std::string study =
+        "stipple study --generators 'random,sobol -w empirical:file=v.txt' -d 1 -n 16,32 --seeds 2 "
+        "--analyze moments --keys mean --no-seconds -o ";
+    const Outcome without = box.shell(study + "s.csv");
+    EXPECT_EQ(without.code, 3);
+    EXPECT_THAT(box.read("s.csv"), HasSubstr("failed,file: v.txt: no such file"));
+    box.write("v.txt", "1\n2\n5\n");
+    EXPECT_EQ(good(box.shell(study + "s.csv --resume")), "");
+    EXPECT_EQ(good(box.shell(study + "whole.csv")), "");
+    EXPECT_EQ(box.read("s.csv"), box.read("whole.csv"));
+
+    const std::string large =
+        "stipple study --generators 'halton,lloyd:iterations=0' -n 100,50000 --analyze moments "
+        "--keys mean --no-seconds --threads 1 -o ";
+    const Outcome small = box.shell(large + "l.csv --max-memory 20M");
+    EXPECT_EQ(small.code, 5) << small.out << small.err;
+    EXPECT_THAT(box.read("l.csv"), HasSubstr("failed,limit: "));
+    EXPECT_EQ(good(box.shell(large + "l.csv --resume")), "");
+    EXPECT_EQ(good(box.shell(large + "all.csv")), "");
+    EXPECT_EQ(box.read("l.csv"), box.read("all.csv"));
+}
+
 TEST(Study, WideTablesOfUnfinishedStudiesHaveANote) {
     const Sandbox box;
     good(box.shell("stipple study --generators random -n 16,32 --analyze moments -o s.csv"));

@@ -205,6 +205,7 @@ TEST(Api, PartsOfASetThatDoNotFitAreRefused) {
     odd[7][1] = nan;
     EXPECT_EQ(error_of([&] { write(path, odd); }),
               "input: point 7: coordinate 2 is nan; expected a finite number");
+    EXPECT_NE(error_of([&] { write_report(path, std::vector<NamedSet>{{"odd", odd}}); }), "");
     odd = cube;
     odd.domain = domain_named("ball", 3);
     EXPECT_EQ(error_of([&] { write(path, odd); }),
@@ -212,6 +213,24 @@ TEST(Api, PartsOfASetThatDoNotFitAreRefused) {
     odd = cube;
     odd.densities.assign(50, 2);
     EXPECT_EQ(densities(odd), odd.densities);
+}
+
+TEST(Api, SetsHaveTheCommandThatMakesThem) {
+    const PointSet set = generate("poisson-disk", {.count = 50, .seed = 4});
+    EXPECT_EQ(set.provenance.command, "stipple generate poisson-disk --count 50 --seed 4");
+    EXPECT_EQ(generate("sobol:scramble=owen",
+                       {.dimension = 3, .start = 64, .bounds = Box{{0, 0, -1}, {1, 1, 1}}},
+                       {{"scramble", "matrix"}})
+                  .provenance.command,
+              "stipple generate sobol:scramble=matrix --dimension 3 --start 64 "
+              "--bounds 0..1,0..1,-1..1 --seed 1");
+    const std::string path = "stipple_api_sets.json";
+    const std::vector<PointSet> others = {set, generate("random", {.count = 50})};
+    write(path, others);
+    const PointSet read_back = read_sets(path).front();
+    EXPECT_EQ(read_back.provenance.generator, "") << "neither command makes both";
+    EXPECT_EQ(read_back, set);
+    std::filesystem::remove(path);
 }
 
 TEST(Api, BoundsAreABoxOfThePoints) {

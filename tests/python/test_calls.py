@@ -696,3 +696,24 @@ def test_integrate_takes_no_arguments_that_would_change_its_domain(name, value):
 def test_studies_beyond_the_memory_are_refused():
     with pytest.raises(stipple.Error, match="memory"):
         stipple.study("random", "star-discrepancy", n=4, seeds=10**9)
+
+
+# What a call wrote is made again by its command, with each generator and whatever was asked of it.
+def test_the_program_reproduces_what_calls_wrote(run, tmp_path):
+    calls = [(unit, {"n": n, "d": d}) for unit in stipple.list("generators") for n, d in ((16, 2), (9, 2), (9, 3), (27, 3))]
+    calls += [("poisson-disk:radius=0.1", {}), ("latin-hypercube:optimize=maximin", {"n": 9}), ("halton", {"n": 9, "start": 5}),
+              ("jittered", {"n": 16, "bounds": [(-1, 1), (0, 2)]}), ("random", {"n": 9, "sets": 3}),
+              ("sobol", {"n": 8, "d": 4, "warp": ["disk@2,3", "owen:seed=9", "normal@1"]}),
+              ("halton", {"n": 8, "warp": "triangle:vertices=[0,0 1,0 0,1]"}),
+              ("random", {"parameters": {"parameters": [{"name": "a", "range": [2, 3]}, {"name": "k", "levels": ["x y", "it's"]}]}})]
+    made = 0
+    for number, (unit, given) in enumerate(calls):
+        try:
+            points = stipple.generate(unit, seed=4, return_meta=True, **given)
+        except stipple.Error:
+            continue  # another dimension or number of points, or a file
+        file = str(tmp_path / f"{number}.json")
+        stipple.write(file, points)
+        assert b"identical" in run("reproduce", file), (unit, given)
+        made += 1
+    assert made > 90
