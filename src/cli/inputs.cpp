@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "cli/launched.hpp"
 #include "cli/session.hpp"
 #include "core/text.hpp"
 #include "io/columns.hpp"
@@ -354,6 +355,10 @@ std::uint64_t largest_seed(const Generator& generator, const Values& values) {
 std::uint64_t seed_of(const Request& request, std::uint64_t largest, Session& session) {
     const Seed given = request.seed.value_or(Seed());
     if (!given.random) return given.value;
+    if (Ranks& ranks = joined_ranks(); ranks.size() > 1) {
+        ranks.end_together();
+        fail(ErrorKind::usage, "--seed: every rank would draw another one; give a number");
+    }
     const std::uint64_t seed = drawn_seed(largest);
     session.tell(fmt::format("--seed {}", seed));
     return seed;

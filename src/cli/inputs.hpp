@@ -83,6 +83,7 @@ SharedSet shared_files(const Sources& from, const Analyzer& analyzer, const std:
                        Ranks& ranks, const RunContext& run);
 
 /// The seed of --seed; for --seed random, a random one up to `largest`, which is reported.
+/// @throws Error(usage) on all ranks, each of which would draw its own
 std::uint64_t seed_of(const Request& request, std::uint64_t largest, Session& session);
 
 /// Largest seed that the generator accepts.

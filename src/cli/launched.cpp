@@ -66,6 +66,11 @@ Ranks& launched(std::string_view verb, const RunContext& run) {
     return *joined();
 }
 
+Ranks& joined_ranks() {
+    static Ranks alone;
+    return joined() ? *joined() : alone;
+}
+
 Error shared_failure(const Error& error) {
     return joined() ? joined()->fail_together(error) : error;
 }

@@ -26,6 +26,9 @@ bool is_mute(std::string_view verb);
 /// built in
 Ranks& launched(std::string_view verb, const RunContext& run);
 
+/// The ranks that this process has joined; itself alone before that.
+Ranks& joined_ranks();
+
 /// The error to report for this process: its own, which is then sent to the other ranks, or that of
 /// a rank that failed earlier.
 Error shared_failure(const Error& error);

@@ -59,7 +59,7 @@ StudyRequest with_config(const StudyRequest& typed, const RunContext& run) {
                 fmt::format("{}: $.{}", io::source_name(*typed.config), what.substr(2)), e.hint());
 }
 
-SweepRequest sweep_of(const StudyRequest& asked, const Ranks& ranks, Session& session) {
+SweepRequest sweep_of(const StudyRequest& asked, Session& session) {
     SweepRequest sweep = asked;
     for (const std::string& text : asked.inputs)
         std::ranges::move(split_specs(text, "study"), std::back_inserter(sweep.generators));
@@ -70,8 +70,6 @@ SweepRequest sweep_of(const StudyRequest& asked, const Ranks& ranks, Session& se
                 ErrorKind::usage,
                 "'stipple study --help' has examples; --config FILE names a study in a file",
                 "study: --{} is missing", name);
-    if (ranks.size() > 1 && asked.Request::seed && asked.Request::seed->random)
-        fail(ErrorKind::usage, "--seed: every rank would draw another one; give a number");
     sweep.first_seed = seed_of(asked, ~std::uint64_t{0}, session);
     if (asked.parameters) {
         sweep.warps.push_back(asked.parameters->spec());
@@ -200,7 +198,7 @@ class Study {
         : request_(request),
           session_(session),
           ranks_(ranks),
-          sweep_(sweep_of(request, ranks, session)),
+          sweep_(sweep_of(request, session)),
           path_(output_of(request)),
           table_(table_of(request)),
           summary_options_(summary_options(request, sweep_.request().first_seed)) {}

@@ -5,6 +5,7 @@
 #include <exception>
 #include <utility>
 
+#include "core/bytes/file_bytes.hpp"
 #include "core/bytes/fingerprint.hpp"
 #include "core/bytes/packed.hpp"
 #include "core/error.hpp"
@@ -69,7 +70,12 @@ struct FileFacts {
     std::string domain = {};
 };
 
+/// @throws Error(usage) for a pipe or a device, whose bytes would go to one rank or another
 std::uint64_t fingerprint_of(const std::string& path, const RunContext& run) {
+    const auto status = status_of(path);
+    if (exists(status) && !is_regular_file(status) && !is_directory(status))
+        fail_with_hint(ErrorKind::usage, "store its bytes in a file",
+                       "{}: is a pipe or a device; ranks share only files", path);
     io::Feed feed(path, run);
     std::string bytes(io::Feed::front_size, '\0');
     std::uint64_t hash = fingerprint(std::string_view());

@@ -47,6 +47,26 @@ TEST(Ranks, AnalyzeOneSetAsOneProcessDoes) {
     }
 }
 
+// Each rank would draw a seed of its own, or read other bytes of a pipe.
+TEST(Ranks, RefuseWhatEachWouldGetAnew) {
+    if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
+    const Sandbox box;
+    if (!can_launch()) GTEST_SKIP() << "no MPI, or no launcher";
+    good(box.shell("mkfifo pipe"));
+    const std::string seed = "stipple: --seed: every rank would draw another one; give a number\n";
+    for (const auto& [command, why] :
+         {std::pair{"analyze moments --generate random -n 1e6 --seed random", seed},
+          {"study --generators random --analyze moments --seed random", seed},
+          {"analyze moments pipe",
+           "stipple: pipe: is a pipe or a device; ranks share only files; store its bytes in a "
+           "file\n"}}) {
+        const Outcome outcome = box.shell(mpirun + "-n 2 timeout 60 stipple " + command);
+        EXPECT_EQ(outcome.code, 2) << command;
+        EXPECT_EQ(outcome.out, "") << command;
+        EXPECT_TRUE(outcome.err.starts_with(why)) << outcome.err;
+    }
+}
+
 TEST(Ranks, SpeakOnceOfWhatIsWrong) {
     if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
     const Sandbox box;
