@@ -531,7 +531,7 @@ class AnalyzeCall {
 }  // namespace
 
 int AnalyzeRequest::perform(Session& session) const {
-    return AnalyzeCall(*this, session, launched("analyze", session.run())).go();
+    return AnalyzeCall(*this, session, launched(*this, session.run())).go();
 }
 
 }  // namespace stipple::cli

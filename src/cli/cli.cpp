@@ -97,6 +97,9 @@ int run_verb(int argc, char** argv) {
 }  // namespace
 
 int work_on(Request& request, Session& session) {
+    // The ranks compare the file.
+    if (request.parameters_file && is_shared(info_of(*request.verb).name))
+        launched(request, session.run());
     read_parameter_file(request, session.run());
     return request.perform(session);
 }

@@ -397,12 +397,19 @@ GeneratedSets generated_sets(const std::string& spec, std::uint64_t seed, const 
         asked.warps.insert(asked.warps.begin() + static_cast<std::ptrdiff_t>(i),
                            parse_spec(named.warps[i]));
     asked.request.seed = seed;
+    require_same_files(files_of(generator, asked.options, asked.warps), joined_ranks(), run);
     return {std::move(asked), run};
 }
 
 void read_parameter_file(Request& request, const RunContext& run) {
-    if (request.parameters_file)
-        request.parameters = read_parameters(*request.parameters_file, run);
+    if (!request.parameters_file) return;
+    const std::string& path = *request.parameters_file;
+    Ranks& ranks = joined_ranks();
+    require_same_files({path}, ranks, run);
+    agreed(ranks, [&] { request.parameters = read_parameters(path, run); });
+    if (const auto rank = unlike_rank(request.parameters->spec(), ranks))
+        fail(ErrorKind::input, "{}: a file that it names is not the same for rank {} as for rank 0",
+             path, *rank);
 }
 
 }  // namespace stipple::cli

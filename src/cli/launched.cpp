@@ -6,8 +6,10 @@
 #include <memory>
 
 #include "cli/session.hpp"
+#include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "pipeline/shared_analysis.hpp"
 
 namespace stipple::cli {
 namespace {
@@ -44,14 +46,18 @@ std::uint64_t launched_ranks() {
 
 bool is_launched() { return started_by_mpirun().has_value(); }
 
+bool is_shared(std::string_view verb) { return verb == "analyze" || verb == "study"; }
+
 bool is_mute(std::string_view verb) {
-    if ((verb != "analyze" && verb != "study") || launched_ranks() == 1) return false;
+    if (!is_shared(verb) || launched_ranks() == 1) return false;
     auto rank = environment({"OMPI_COMM_WORLD_RANK", "PMI_RANK"});
     if (!rank) rank = environment({"PMIX_RANK", "SLURM_PROCID"});
     return rank.value_or(0) != 0;
 }
 
-Ranks& launched(std::string_view verb, const RunContext& run) {
+Ranks& launched(const Arguments& arguments, const RunContext& run) {
+    if (joined()) return *joined();
+    const std::string& verb = info_of(*arguments.verb).name;
     const std::uint64_t started = launched_ranks();
     if (started == 1) return *(joined() = std::make_unique<Ranks>());
     if (!has_mpi())
@@ -63,6 +69,12 @@ Ranks& launched(std::string_view verb, const RunContext& run) {
         fail_with_hint(ErrorKind::usage, "start them by mpirun, or by srun --mpi=pmix",
                        "{}: a launcher started {} processes, which do not find each other by MPI",
                        verb, started);
+    Arguments same = arguments;
+    // The bytes of points' files are compared, whatever their names.
+    if (arguments.verb == Verb::analyze) std::ranges::fill(same.inputs, "FILE");
+    if (const auto rank = unlike_rank(command_text(same), *joined()))
+        fail_with_hint(ErrorKind::usage, "start all ranks by the same command",
+                       "{}: the arguments of rank {} are not those of rank 0", verb, *rank);
     return *joined();
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "cli/parsing/arguments.hpp"
 #include "pipeline/ranks.hpp"
 
 namespace stipple::cli {
@@ -21,10 +22,15 @@ bool is_launched();
 /// a verb that ranks share. Processes of other verbs report their own errors.
 bool is_mute(std::string_view verb);
 
-/// Joins the other processes that the launcher started, until leave_ranks().
+/// Whether ranks share the work of the verb.
+bool is_shared(std::string_view verb);
+
+/// Joins the other processes that the launcher started, until leave_ranks(). Does nothing if they
+/// are joined.
 /// @throws Error(usage) if there are several processes, but MPI does not connect them or is not
-/// built in
-Ranks& launched(std::string_view verb, const RunContext& run);
+/// built in, or if their arguments differ in more than names of points' files and in options that
+/// never affect a result
+Ranks& launched(const Arguments& arguments, const RunContext& run);
 
 /// The ranks that this process has joined; itself alone before that.
 Ranks& joined_ranks();

@@ -17,6 +17,7 @@
 #include "io/files.hpp"
 #include "io/source_text.hpp"
 #include "pipeline/ranks.hpp"
+#include "pipeline/shared_analysis.hpp"
 #include "pipeline/units.hpp"
 #include "study/study_config.hpp"
 #include "study/study_file.hpp"
@@ -34,6 +35,7 @@ StudyRequest with_config(const StudyRequest& typed, const RunContext& run) {
     const std::string& path = *typed.config;
     if (path == "-" && launched_ranks() > 1)
         fail(ErrorKind::usage, "--config: the ranks have no standard input; name a file");
+    require_same_files({path}, joined_ranks(), run);
     Arguments all = typed;
     std::erase_if(all.common, [](const auto& option) { return option.first == "config"; });
     const auto is_typed = [&](const std::string& name) {
@@ -205,6 +207,7 @@ class Study {
 
     int go() {
         refuse_too_much();
+        require_same_files(sweep_.files(), ranks_, session_.run());
         if (ranks_.rank() != 0) {
             work_for_study(UnitRunner(sweep_, session_.run()), ranks_, session_.run());
             return 0;
@@ -329,7 +332,7 @@ int StudyRequest::perform(Session& session) const {
         summarize_table(*this, session.run());
         return 0;
     }
-    Ranks& ranks = launched("study", session.run());
+    Ranks& ranks = launched(*this, session.run());
     std::optional<StudyRequest> completed;
     std::optional<Study> study;
     try {

@@ -481,6 +481,17 @@ std::vector<std::string> files_of(const Schema& schema, const Values& values,
     return files;
 }
 
+std::vector<std::string> files_of(const Generator& generator, const Values& values,
+                                  std::span<const Spec> warps) {
+    auto files = files_of(generator.options, values, generator.writes);
+    for (const Spec& spec : warps) {
+        const Scramble* scramble = scramble_named(spec.name);
+        const Schema& schema = scramble ? scramble->options : find_warp(spec.name).options;
+        std::ranges::move(files_of(schema, spec.values(schema)), std::back_inserter(files));
+    }
+    return files;
+}
+
 std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const std::string> files,
                                                               const RunContext& run) {
     std::vector<std::pair<std::string, std::string>> all;

@@ -204,6 +204,10 @@ std::vector<double> gather(std::span<const double> rows, std::size_t width,
 std::vector<std::string> files_of(const Schema& schema, const Values& values,
                                   std::span<const std::string> written = {});
 
+/// Returns the input files that a generator's options and its warps name.
+std::vector<std::string> files_of(const Generator& generator, const Values& values,
+                                  std::span<const Spec> warps);
+
 /// Recorded instead of a fingerprint for input that cannot be read again, such as a pipe.
 inline constexpr std::string_view not_kept = "not kept";
 

@@ -10,6 +10,7 @@
 #include "core/bytes/packed.hpp"
 #include "core/error.hpp"
 #include "io/feed.hpp"
+#include "io/source_text.hpp"
 
 namespace stipple {
 namespace {
@@ -73,9 +74,9 @@ struct FileFacts {
 /// @throws Error(usage) for a pipe or a device, whose bytes would go to one rank or another
 std::uint64_t fingerprint_of(const std::string& path, const RunContext& run) {
     const auto status = status_of(path);
-    if (exists(status) && !is_regular_file(status) && !is_directory(status))
+    if (path == "-" || (exists(status) && !is_regular_file(status) && !is_directory(status)))
         fail_with_hint(ErrorKind::usage, "store its bytes in a file",
-                       "{}: is a pipe or a device; ranks share only files", path);
+                       "{}: is a pipe or a device; ranks share only files", io::source_name(path));
     io::Feed feed(path, run);
     std::string bytes(io::Feed::front_size, '\0');
     std::uint64_t hash = fingerprint(std::string_view());
@@ -94,22 +95,6 @@ FileFacts facts_of(const std::string& path, const io::Opener& open) {
         fail_with_hint(ErrorKind::input, "'stipple study' shares many sets",
                        "{}: it holds several sets; ranks share one", path);
     return facts;
-}
-
-/// Checks that all ranks read the same bytes: a name may mean different files on different
-/// machines.
-/// @throws Error(input)
-void check_same_bytes(const std::vector<std::string>& paths, std::vector<Unpacker>& told,
-                      Peers& peers) {
-    for (const auto& path : paths) {
-        const auto bytes = told[0].take<std::uint64_t>();
-        for (std::size_t rank = 1; rank < told.size(); ++rank) {
-            if (told[rank].take<std::uint64_t>() == bytes) continue;
-            peers.end_together();
-            fail(ErrorKind::input, "{}: this file is not the same for rank {} as for rank 0", path,
-                 rank);
-        }
-    }
 }
 
 void check_alike(const std::vector<std::string>& paths, const std::vector<FileFacts>& facts) {
@@ -161,12 +146,40 @@ void agreed(Peers& peers, const std::function<void()>& work) {
     throw Error(error.kind(), who + error.what(), error.hint());
 }
 
-SharedSet shared_in_files(const std::vector<std::string>& paths, const io::Opener& open,
-                          Peers& peers, const RunContext& run) {
-    const auto size = static_cast<std::size_t>(peers.size());
+std::optional<std::size_t> unlike_rank(std::string_view text, Peers& peers) {
+    const auto all = peers.exchange(format_fingerprint(fingerprint(text)));
+    const auto unlike = std::ranges::find_if(all, [&](const auto& of) { return of != all[0]; });
+    if (unlike == all.end()) return std::nullopt;
+    peers.end_together();
+    return static_cast<std::size_t>(unlike - all.begin());
+}
+
+void require_same_files(const std::vector<std::string>& paths, Peers& peers,
+                        const RunContext& run) {
+    if (peers.size() == 1 || paths.empty()) return;
     Packer packer;
     agreed(peers, [&] {
         for (const auto& path : paths) packer.put(fingerprint_of(path, run));
+    });
+    const auto all = peers.exchange(packer.take());
+    std::vector<Unpacker> told(all.begin(), all.end());
+    for (const auto& path : paths) {
+        const auto bytes = told[0].take<std::uint64_t>();
+        for (std::size_t rank = 1; rank < told.size(); ++rank) {
+            if (told[rank].take<std::uint64_t>() == bytes) continue;
+            peers.end_together();
+            fail(ErrorKind::input, "{}: this file is not the same for rank {} as for rank 0", path,
+                 rank);
+        }
+    }
+}
+
+SharedSet shared_in_files(const std::vector<std::string>& paths, const io::Opener& open,
+                          Peers& peers, const RunContext& run) {
+    const auto size = static_cast<std::size_t>(peers.size());
+    require_same_files(paths, peers, run);
+    Packer packer;
+    agreed(peers, [&] {
         for (auto i = static_cast<std::size_t>(peers.rank()); i < paths.size(); i += size) {
             const FileFacts facts = facts_of(paths[i], open);
             packer.put(facts.count).put(facts.dimension).put_all(facts.domain);
@@ -174,7 +187,6 @@ SharedSet shared_in_files(const std::vector<std::string>& paths, const io::Opene
     });
     const auto all = peers.exchange(packer.take());
     std::vector<Unpacker> told(all.begin(), all.end());
-    check_same_bytes(paths, told, peers);
     std::vector<FileFacts> facts(paths.size());
     std::uint64_t count = 0;
     for (std::size_t i = 0; i < paths.size(); ++i) {

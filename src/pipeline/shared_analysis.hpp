@@ -15,6 +15,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analyzers/analyzer.hpp"
@@ -38,6 +39,15 @@ SharedSet shared_in_memory(PointSet points);
 /// @throws Error(input), on all ranks, as io::join_points()
 SharedSet shared_in_files(const std::vector<std::string>& paths, const io::Opener& open,
                           Peers& peers, const RunContext& run);
+
+/// Checks that all ranks read the same bytes: a name may mean different files on different
+/// machines. All ranks must name the same number of files.
+/// @throws Error, on all ranks: of kind input for files that differ; usage for pipes and devices
+void require_same_files(const std::vector<std::string>& paths, Peers& peers, const RunContext& run);
+
+/// The first rank whose text is not that of rank 0; nullopt if all are the same. If there is one,
+/// all ranks must fail.
+std::optional<std::size_t> unlike_rank(std::string_view text, Peers& peers);
 
 /// Analyzes the set with an analyzer that can merge parts. Returns the result on rank 0, and
 /// nullopt on the others.

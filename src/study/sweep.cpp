@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 
 #include "core/bytes/fingerprint.hpp"
 #include "core/error.hpp"
@@ -256,6 +257,17 @@ std::optional<std::uint64_t> Sweep::index_of(std::string_view generator, std::ui
     index = index * request_.seeds + seed_index;
     append(measures_, measure, &Chosen<Analyzer>::spec);
     return known ? std::optional(index) : std::nullopt;
+}
+
+std::vector<std::string> Sweep::files() const {
+    static const std::vector<std::string> written = {"grid", "image", "wisdom"};
+    std::vector<std::string> all;
+    for (const auto& c : generators_)
+        std::ranges::move(files_of(*c.unit, c.values, warp_lists_[c.warps].all),
+                          std::back_inserter(all));
+    for (const auto& c : measures_)
+        std::ranges::move(files_of(c.unit->options, c.values, written), std::back_inserter(all));
+    return all;
 }
 
 bool Sweep::seeded(std::size_t generator) const {

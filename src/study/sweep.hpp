@@ -121,6 +121,9 @@ class Sweep {
                                                         std::uint64_t count, std::uint64_t seed,
                                                         std::string_view measure) const;
 
+    /// The files that generators, warps and measures read.
+    [[nodiscard]] std::vector<std::string> files() const;
+
     /// Whether the sets of a generator differ from seed to seed.
     [[nodiscard]] bool seeded(std::size_t generator) const;
 

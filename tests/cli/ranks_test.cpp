@@ -151,6 +151,80 @@ TEST(Ranks, EndTogetherWhereOneFails) {
                 HasSubstr("4 " + rank_1 + "c.json: no such file"));
 }
 
+// Every file that an option names is compared, as those of points are. Rank 1 reads its own.
+TEST(Ranks, CompareAllFilesThatOptionsName) {
+    if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
+    const Sandbox box;
+    if (!can_launch()) GTEST_SKIP() << "no MPI, or no launcher";
+    for (const char* folder : {"r0", "r1", "none"}) {
+        const std::string at = std::string(folder) + "/";
+        std::filesystem::create_directory(box.path() / folder);
+        if (*folder == 'n') continue;
+        const bool first = at == "r0/";
+        box.write(at + "v.txt", first ? "1\n2\n4\n" : "1\n2\n5\n");
+        box.write(at + "pool.csv",
+                  first ? "x,y\n0.1,0.2\n0.3,0.4\n0.5,0.5\n" : "x,y\n0.1,0.2\n0.3,0.4\n0.5,0.6\n");
+        box.write(at + "p.json", first ? R"({"parameters":[{"name":"a","range":[0,1]}]})"
+                                       : R"({"parameters":[{"name":"a","range":[0,2]}]})");
+        box.write(at + "nest.json", R"({"parameters":[{"name":"a","file":"v.txt"}]})");
+        box.write(at + "c.json", first ? R"({"generators":["random"],"analyze":["moments"]})"
+                                       : R"({"generators":["sobol"],"analyze":["moments"]})");
+    }
+    const auto told = [&](const std::string& folder, const std::string& command) {
+        box.write("rank.sh", "cd r0; [ $OMPI_COMM_WORLD_RANK = 0 ] || cd ../" + folder +
+                                 "\nexec timeout 60 \"$@\"\n");
+        const Outcome outcome = box.shell(mpirun + "-n 2 sh rank.sh stipple " + command);
+        EXPECT_EQ(outcome.out, "") << command;
+        return fmt::format("{} {}", outcome.code, outcome.err.substr(0, outcome.err.find('\n')));
+    };
+    const std::string rank_1 = " is not the same for rank 1 as for rank 0";
+    char host[256] = {};
+    ::gethostname(host, sizeof host - 1);
+    const std::string moments = "analyze moments --generate random -n 9 -d 1 ";
+    const std::string study = "study --analyze moments -n 2 -d 1 --generators ";
+    for (const auto& [command, file] :
+         {std::pair{moments + "-w empirical:file=v.txt", "v.txt"},
+          {moments + "--parameters p.json", "p.json"},
+          {"analyze star-discrepancy --generate subset:from=pool.csv -n 2", "pool.csv"},
+          {study + "random -w empirical:file=v.txt", "v.txt"},
+          {study + "'random -w empirical:file=v.txt'", "v.txt"},
+          {study + "subset:from=pool.csv", "pool.csv"},
+          {study + "random --parameters p.json", "p.json"},
+          {"study --config c.json", "c.json"}}) {
+        EXPECT_EQ(told("r1", command), fmt::format("3 stipple: {}: this file{}", file, rank_1))
+            << command;
+    }
+    for (const auto& [command, file] : {std::pair{moments + "-w empirical:file=v.txt", "v.txt"},
+                                        {moments + "--parameters p.json", "p.json"},
+                                        {study + "random --parameters p.json", "p.json"}})
+        EXPECT_EQ(told("none", command),
+                  fmt::format("4 stipple: rank 1 on {}: {}: no such file", host, file))
+            << command;
+    EXPECT_EQ(told("r1", moments + "--parameters nest.json"),
+              "3 stipple: nest.json: a file that it names" + rank_1);
+}
+
+TEST(Ranks, CompareTheirArguments) {
+    if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
+    const Sandbox box;
+    if (!can_launch()) GTEST_SKIP() << "no MPI, or no launcher";
+    for (const std::string verb :
+         {"analyze moments --generate random", "study --generators random --analyze moments"}) {
+        const std::string command = "-n 1 stipple " + verb;
+        const Outcome outcome =
+            box.shell(mpirun + command + " -n 8 : " + command + " -n 16 --max-memory 1G");
+        EXPECT_EQ(outcome.code, 2);
+        EXPECT_EQ(outcome.out, "");
+        EXPECT_THAT(outcome.err, HasSubstr("the arguments of rank 1 are not those of rank 0"));
+    }
+    box.write("a.csv", "x,y\n0.1,0.2\n0.3,0.4\n");
+    box.write("b.csv", "x,y\n0.1,0.2\n0.3,0.4\n");
+    const std::string alike = mpirun +
+                              "-n 1 stipple analyze moments a.csv : -n 1 stipple analyze "
+                              "moments b.csv --threads 1";
+    good(box.shell(alike));
+}
+
 // mpirun gives its first process a terminal even if its own output is redirected.
 TEST(Ranks, OfWhichThereIsOneWriteAsIfAlone) {
     if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
