@@ -177,7 +177,7 @@ class Collector final : public SharedAccumulator {
   private:
     void need_memory_for(std::uint64_t kept, const RunContext& run) const {
         run.need_memory((32.0 + 8.0 * static_cast<double>(axes_)) * static_cast<double>(kept),
-                        "the sorted coordinates");
+                        "sorting the coordinates");
     }
 
     /// Switches from keeping points to counting them in cells.
