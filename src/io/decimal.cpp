@@ -24,42 +24,59 @@ constexpr auto small_powers_of_10 = [] {
     return powers;
 }();
 
-/// floor(fraction * 10^precision), exact, for `fraction` in [0, 1) and precision <= 19.
-std::uint64_t cut_fraction(double fraction, int precision) {
-    const auto bits = std::bit_cast<std::uint64_t>(fraction);
-    const int biased = static_cast<int>(bits >> 52);
-    const int shift = 1075 - std::max(biased, 1);
-    if (biased == 0 || shift >= 128) return 0;
-    const std::uint64_t c = (bits & ((std::uint64_t{1} << 52) - 1)) | std::uint64_t{1} << 52;
-    // The product is below 2^53 * 10^19 < 2^117.
-    const Uint128 product = Uint128{c} * small_powers_of_10[static_cast<std::size_t>(precision)];
-    return static_cast<std::uint64_t>(product >> shift);
+/// Appends `size` >= 0 with `precision` digits after the point, cut off its shortest text without
+/// an exponent; for any value and precision.
+void append_cut_slowly(std::string& out, double size, int precision) {
+    std::array<char, 400> text;  // the longest, 2.2250738585072014e-308, has 327
+    char* const begin = text.data();
+    const bool plain = size >= 1e-4 && size < 1e15;  // this text has no exponent, and is faster
+    char* const end =
+        plain ? fmt::format_to(begin, FMT_COMPILE("{}"), size)
+              : std::to_chars(begin, begin + text.size(), size, std::chars_format::fixed).ptr;
+    char* const point = std::find(begin, end, '.');
+    out.append(begin, point);
+    if (precision == 0) return;
+    out += '.';
+    const auto digits = std::min<std::ptrdiff_t>(precision, std::max(end - point - 1, {}));
+    out.append(point + (digits > 0 ? 1 : 0), static_cast<std::size_t>(digits));
+    out.append(static_cast<std::size_t>(precision - digits), '0');
 }
 
-/// Appends |value|, truncated to `precision` digits after the point; for any value and precision.
-void append_cut_slowly(std::string& out, double value, int precision) {
-    constexpr int most_digits = 1074;  // no double has more after the point
-    std::string text = fmt::format("{:.{}f}", value, std::max(precision, most_digits));
-    const auto point = text.find('.');
-    if (point != std::string::npos)
-        text.resize(point + (precision == 0 ? 0 : 1 + static_cast<std::size_t>(precision)));
-    out += text;
+/// As append_cut_slowly(); returns false, and appends nothing, if it cannot tell the digits.
+bool append_cut_fast(std::string& out, double size, int precision) {
+    if (!(size < 0x1p53) || precision > 19) return false;
+    const auto bits = std::bit_cast<std::uint64_t>(size);
+    const int biased = static_cast<int>(bits >> 52);
+    const std::uint64_t implicit = std::uint64_t{biased > 0} << 52;
+    // size = c / 2^shift; if shift > 120, size < 2^-67, and all digits are 0.
+    const std::uint64_t c = (bits & ((std::uint64_t{1} << 52) - 1)) | implicit;
+    const int shift = 1075 - std::max(biased, 1);
+    const std::uint64_t whole = shift < 64 ? c >> shift : 0;
+    std::uint64_t digits = 0;
+    if (precision > 0 && shift <= 120) {
+        const std::uint64_t power = small_powers_of_10[static_cast<std::size_t>(precision)];
+        const Uint128 one = Uint128{1} << shift;
+        const Uint128 fraction = Uint128{c} & (one - 1);
+        // The product is below 2^53 * 10^19 < 2^117.
+        const Uint128 product = fraction * power;
+        digits = static_cast<std::uint64_t>(product >> shift);
+        // Texts that read back to `size` are those within half of 1 / 2^shift. If a multiple of
+        // 10^-precision is among them, and no other, it is the shortest, or ends in zeros.
+        const Uint128 twice_above = 2 * (one - (product & (one - 1)));
+        if (fraction != 0 && (one <= power || twice_above == power)) return false;
+        if (fraction != 0 && twice_above < power) ++digits;
+    }
+    fmt::format_to(std::back_inserter(out), FMT_COMPILE("{}"), whole);
+    if (precision > 0)
+        fmt::format_to(std::back_inserter(out), FMT_COMPILE(".{:0{}}"), digits, precision);
+    return true;
 }
 
 void append_cut(std::string& out, double value, int precision) {
     const auto start = out.size();
     const double size = std::abs(value);
     if (std::signbit(value)) out += '-';
-    if (!(size < 0x1p53) || precision > 19) {
-        append_cut_slowly(out, size, precision);
-    } else {
-        const double whole = std::trunc(size);
-        fmt::format_to(std::back_inserter(out), FMT_COMPILE("{}"),
-                       static_cast<std::uint64_t>(whole));
-        if (precision > 0)
-            fmt::format_to(std::back_inserter(out), FMT_COMPILE(".{:0{}}"),
-                           cut_fraction(size - whole, precision), precision);
-    }
+    if (!append_cut_fast(out, size, precision)) append_cut_slowly(out, size, precision);
     // Removes the sign if only zeros are left.
     if (std::signbit(value) && out.find_first_of("123456789in", start) == std::string::npos)
         out.erase(start, 1);

@@ -11,7 +11,8 @@
 namespace stipple::io {
 
 /// Appends the shortest text that reads back to the same double. With a precision, appends that
-/// many digits after the point, truncated so that values below 1 never print as 1.
+/// many digits after the point: those of that text, cut off without an exponent, so that values
+/// below 1 never print as 1, and text that was cut reads back to the same text.
 void append_number(std::string& out, double value, std::optional<int> precision = std::nullopt);
 
 /// Text before, between and after the numbers of a row.
