@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "io/columns.hpp"
 #include "io/files.hpp"
 #include "io/source_text.hpp"
@@ -224,12 +225,7 @@ class JoinedStream final : public PointStream {
         if (at_ + 1 == paths_.size()) return false;
         const std::string name = source_name(paths_[++at_]);
         auto part = open_(paths_[at_]);
-        if (part->dimension() != part_->dimension())
-            fail(ErrorKind::input, "{}: its points have {} coordinates; those before have {}", name,
-                 part->dimension(), part_->dimension());
-        if (part->provenance().domain != whole_.domain)
-            fail(ErrorKind::input, "{}: its points are on {}; those before are on {}", name,
-                 part->provenance().domain, whole_.domain);
+        require_alike(name, *part, {source_name(paths_.front()), dimension(), whole_});
         same_warps_ = same_warps_ && part->provenance().warps == whole_.warps;
         shards_ = shards_ && unsharded(part->provenance()) == unsharded(whole_);
         part_ = std::move(part);
@@ -243,6 +239,7 @@ class JoinedStream final : public PointStream {
         if (typed != std::string::npos) meta.command.erase(typed, 9 + meta.shard.size());
         meta.shard.clear();
         meta.count = 0;
+        meta.named = false;
         return meta;
     }
 
@@ -252,6 +249,7 @@ class JoinedStream final : public PointStream {
         if (same_warps_) meta.warps = whole_.warps;
         meta.density_column = whole_.density_column;
         meta.columns = whole_.columns;
+        meta.levels = whole_.levels;
         if (shards_ && at_ + 1 == paths_.size()) meta = unsharded(whole_);
         meta.count = count_;
         meta.dimension = dimension();
@@ -270,7 +268,47 @@ class JoinedStream final : public PointStream {
     bool shards_ = true;  ///< all files so far are the shards of one set
 };
 
+/// Names of the coordinates, then those of columns of densities.
+std::vector<std::string> names_of(const Provenance& meta, std::size_t width) {
+    const bool measured = !meta.density_column.empty();
+    auto names = meta.columns.empty() ? coordinate_names(width - (measured ? 1 : 0)) : meta.columns;
+    if (measured) names.push_back(meta.density_column);
+    return names;
+}
+
+/// The words of a column, for messages.
+std::string words_of(const Levels& levels, const std::string& column) {
+    const auto found = std::ranges::find(levels, column, &Levels::value_type::first);
+    return found == levels.end() ? "no words" : "the words " + shown(join(found->second, ", "));
+}
+
 }  // namespace
+
+void require_alike(const std::string& name, const PointStream& file, const FirstFile& first) {
+    const Provenance& meta = file.provenance();
+    const Provenance& before = first.provenance;
+    if (file.dimension() != first.dimension)
+        fail(ErrorKind::input, "{}: its points have {} coordinates; those before have {}", name,
+             file.dimension(), first.dimension);
+    if (meta.domain != before.domain)
+        fail(ErrorKind::input, "{}: its points are on {}; those before are on {}", name,
+             meta.domain, before.domain);
+    const auto names = names_of(meta, file.dimension());
+    const auto others = names_of(before, first.dimension);
+    const auto [at, other] = std::ranges::mismatch(names, others);
+    const auto has_names = [](const Provenance& of) { return of.named || !of.columns.empty(); };
+    if (has_names(meta) && has_names(before) && at != names.end() && other != others.end())
+        fail_with_hint(ErrorKind::input, "--column picks columns by name",
+                       "{}: its column {} is {}; that of {} is {}", name, at - names.begin() + 1,
+                       *at, first.name, *other);
+    for (const std::string& column : names)
+        if (const auto words = words_of(meta.levels, column),
+            known = words_of(before.levels, column);
+            words != known)
+            fail_with_hint(ErrorKind::input, "--parameters FILE fixes the numbers of words",
+                           "{}: its column {} has {}; that of {} has {}", name, column, words,
+                           first.name, known);
+}
 
 std::unique_ptr<PointStream> join_points(std::vector<std::string> paths, Opener open) {
     return std::make_unique<JoinedStream>(std::move(paths), std::move(open));

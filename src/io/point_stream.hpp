@@ -72,11 +72,22 @@ std::unique_ptr<PointStream> open_points(const std::string& path, const ReadOpti
 /// @throws as read_given
 std::size_t width_of_given(std::string_view option, const std::string& path);
 
+/// The first file of several that are joined.
+struct FirstFile {
+    std::string name;
+    std::size_t dimension = 0;
+    Provenance provenance = {};
+};
+
+/// Checks that the points of a file, with this name for messages, can follow those of the first.
+/// @throws Error(input) for another number of coordinates, another domain, or, if both files have
+/// them, other names of columns or other words in a column
+void require_alike(const std::string& name, const PointStream& file, const FirstFile& first);
+
 /// Concatenates files of one set each into one set; each file is opened when it is needed. If the
 /// files are all shards of one set, in order, the provenance is that of the whole set; otherwise it
 /// holds only what they have in common.
-/// @throws Error(input) for points with different numbers of coordinates or on different domains,
-/// and for a file with several sets
+/// @throws Error(input) as require_alike(), and for a file with several sets
 using Opener = std::function<std::unique_ptr<PointStream>(const std::string& path)>;
 std::unique_ptr<PointStream> join_points(std::vector<std::string> paths, Opener open);
 

@@ -2,6 +2,7 @@
 #include "pipeline/shared_analysis.hpp"
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <utility>
 
@@ -64,13 +65,6 @@ std::shared_ptr<SharedAccumulator> counted_in(const Analyzer& analyzer, const Sh
     return measure;
 }
 
-/// Properties of a file that the ranks exchange.
-struct FileFacts {
-    std::uint64_t count = 0;
-    std::size_t dimension = 0;
-    std::string domain = {};
-};
-
 /// @throws Error(usage) for a pipe or a device, whose bytes would go to one rank or another
 std::uint64_t fingerprint_of(const std::string& path, const RunContext& run) {
     const auto status = status_of(path);
@@ -85,28 +79,20 @@ std::uint64_t fingerprint_of(const std::string& path, const RunContext& run) {
     return hash;
 }
 
-FileFacts facts_of(const std::string& path, const io::Opener& open) {
+/// Numbers of points and coordinates in a file of one set, like the first. @throws Error(input)
+std::array<std::uint64_t, 2> size_of(const std::string& path, const std::string& first,
+                                     const io::Opener& open) {
     const auto stream = open(path);
+    if (path != first) {
+        const auto front = open(first);
+        io::require_alike(path, *stream, {first, front->dimension(), front->provenance()});
+    }
     if (!stream->next_set()) fail(ErrorKind::input, "{}: it holds no points", path);
-    FileFacts facts{.count = stream->skip(~std::uint64_t{0}),
-                    .dimension = stream->dimension(),
-                    .domain = stream->provenance().domain};
+    const std::uint64_t count = stream->skip(~std::uint64_t{0});
     if (stream->next_set())
         fail_with_hint(ErrorKind::input, "'stipple study' shares many sets",
                        "{}: it holds several sets; ranks share one", path);
-    return facts;
-}
-
-void check_alike(const std::vector<std::string>& paths, const std::vector<FileFacts>& facts) {
-    const FileFacts& first = facts.front();
-    for (std::size_t i = 1; i < facts.size(); ++i) {
-        if (facts[i].dimension != first.dimension)
-            fail(ErrorKind::input, "{}: its points have {} coordinates; those before have {}",
-                 paths[i], facts[i].dimension, first.dimension);
-        if (facts[i].domain != first.domain)
-            fail(ErrorKind::input, "{}: its points are on {}; those before are on {}", paths[i],
-                 facts[i].domain, first.domain);
-    }
+    return {count, stream->dimension()};
 }
 
 /// Merges the accumulators of all ranks in rank 0. A rank whose lowest set bit is `step` sends its
@@ -180,27 +166,24 @@ SharedSet shared_in_files(const std::vector<std::string>& paths, const io::Opene
     require_same_files(paths, peers, run);
     Packer packer;
     agreed(peers, [&] {
-        for (auto i = static_cast<std::size_t>(peers.rank()); i < paths.size(); i += size) {
-            const FileFacts facts = facts_of(paths[i], open);
-            packer.put(facts.count).put(facts.dimension).put_all(facts.domain);
-        }
+        for (auto i = static_cast<std::size_t>(peers.rank()); i < paths.size(); i += size)
+            packer.put(size_of(paths[i], paths.front(), open));
     });
     const auto all = peers.exchange(packer.take());
     std::vector<Unpacker> told(all.begin(), all.end());
-    std::vector<FileFacts> facts(paths.size());
+    std::vector<std::uint64_t> counts;
     std::uint64_t count = 0;
+    std::size_t dimension = 0;
     for (std::size_t i = 0; i < paths.size(); ++i) {
-        Unpacker& from = told[i % size];
-        facts[i] = {.count = from.take<std::uint64_t>(), .dimension = from.take<std::size_t>()};
-        facts[i].domain = from.take_text();
-        count += facts[i].count;
+        const auto [points, coordinates] = told[i % size].take<std::array<std::uint64_t, 2>>();
+        counts.push_back(points);
+        count += points;
+        dimension = coordinates;
     }
-    check_alike(paths, facts);
-    return {.points = {.domain = unit_cube(facts.front().dimension), .count = count},
+    return {.points = {.domain = unit_cube(dimension), .count = count},
             .from = [=](std::uint64_t first) -> NextRows {
                 std::size_t file = 0;
-                while (file + 1 < paths.size() && first >= facts[file].count)
-                    first -= facts[file++].count;
+                while (file + 1 < paths.size() && first >= counts[file]) first -= counts[file++];
                 const std::shared_ptr<io::PointStream> stream = io::join_points(
                     {paths.begin() + static_cast<std::ptrdiff_t>(file), paths.end()}, open);
                 stream->next_set();

@@ -101,6 +101,7 @@ struct Provenance {
     bool independent = false;
     /// Column of the file that holds each point's density, "pdf" or "weight"; not written.
     std::string density_column = {};
+    bool named = false;  ///< the file names its columns, maybe x, y, ...; not written
 
     bool operator==(const Provenance&) const = default;
 };

@@ -94,4 +94,47 @@ TEST(Concat, RefusesWhatIsNotOneSet) {
     EXPECT_THAT(box.run({"convert", "a.json", "b.json"}).err, HasSubstr("--concat"));
 }
 
+// One numbering of words, one order of names: for verbs that write and those that measure.
+TEST(Concat, RefusesOtherNamesOrWords) {
+    const Sandbox box;
+    good(box.shell(
+        "printf 'x,m\\n0.1,steel\\n0.2,brass\\n' > a.csv; printf 'x,m\\n0.3,oak\\n0.4,steel\\n' "
+        "> b.csv; printf 'x,m\\n0.5,brass\\n0.6,steel\\n' > c.csv; printf 'x,m\\n0.5,1\\n' > "
+        "n.csv; printf 'x,y\\n0.1,0.2\\n' > xy.csv; printf 'y,x\\n0.3,0.4\\n' > yx.csv; echo "
+        "0.5,0.6 > plain.csv; printf 'x,y,pdf\\n1,1,1\\n' > pdf.csv; printf "
+        "'x,y,weight\\n1,1,1\\n' > weight.csv"));
+    for (const char* verb : {"convert", "analyze moments"}) {
+        const auto refusal = [&](const std::string& files) {
+            const Outcome outcome =
+                box.shell(std::string("stipple -q ") + verb + " --concat " + files);
+            EXPECT_EQ(outcome.code, 3) << files;
+            EXPECT_EQ(outcome.out, "");
+            return outcome.err;
+        };
+        const std::string words = refusal("a.csv b.csv");
+        EXPECT_THAT(words,
+                    HasSubstr("b.csv: its column m has the words 'oak, steel'; that of a.csv "
+                              "has the words 'brass, steel'"));
+        EXPECT_THAT(words, HasSubstr("--parameters FILE"));
+        EXPECT_THAT(refusal("n.csv c.csv"),
+                    HasSubstr("has the words 'brass, steel'; that of n.csv has no words"));
+        EXPECT_THAT(refusal("xy.csv yx.csv"),
+                    HasSubstr("yx.csv: its column 1 is y; that of xy.csv is x"));
+        EXPECT_THAT(refusal("xy.csv c.csv"),
+                    HasSubstr("c.csv: its column 2 is m; that of xy.csv is y"));
+    }
+    EXPECT_EQ(box.shell("stipple convert --concat pdf.csv weight.csv").code, 3);
+    const auto rows = [&](const std::string& files) {
+        return good(box.shell("stipple -q convert --no-header --concat " + files));
+    };
+    EXPECT_EQ(rows("a.csv c.csv"), "0.1,steel\n0.2,brass\n0.5,brass\n0.6,steel\n");
+    EXPECT_EQ(rows("xy.csv plain.csv"), "0.1,0.2\n0.5,0.6\n");
+    EXPECT_EQ(rows("plain.csv yx.csv"), "0.5,0.6\n0.3,0.4\n");
+    EXPECT_EQ(rows("--column x,y xy.csv yx.csv"), "0.1,0.2\n0.4,0.3\n");
+    box.write("p.json", R"({"parameters": [{"name": "x", "range": [0, 1]},
+        {"name": "m", "levels": ["steel", "brass", "oak"]}]})");
+    EXPECT_EQ(rows("--parameters p.json a.csv b.csv"),
+              "0.1,steel\n0.2,brass\n0.3,oak\n0.4,steel\n");
+}
+
 }  // namespace stipple::testing::concat_test

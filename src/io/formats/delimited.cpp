@@ -676,6 +676,7 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
     head.replaced = replace_names(head.columns.names, options.gaps);
     if (options.all_columns) head.replaced.clear();
     head.top.provenance.columns = kept_names(head.columns.names);
+    head.top.provenance.named = head.names;
     head.body = head.names ? head.top.next : head.top.first;
     if (head.names) take_words(head, text);
     head.dialect.comma = has_decimal_comma(text, head);

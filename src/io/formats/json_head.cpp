@@ -97,6 +97,7 @@ Columns json_columns(const SourceText& text, JsonHead& head, std::size_t width,
     for (const std::string& sentence : replace_names(columns.names, options.gaps))
         run.notify(fmt::format("{}: {}", text.source(), sentence));
     head.provenance.columns = kept_names(columns.names);
+    head.provenance.named = !columns.names.empty();
     return columns;
 }
 

@@ -49,7 +49,9 @@ TEST(Csv, MetaStandsOnTopAndReadsBack) {
     EXPECT_TRUE(text.ends_with("\nx,y\n0,0.5\n0.25,1e-07\n")) << text;
     const auto sets = csv(text);
     EXPECT_EQ(sets.at(0), two);
-    EXPECT_EQ(sets.at(0).provenance, some_provenance());
+    Provenance expected = some_provenance();
+    expected.named = true;
+    EXPECT_EQ(sets.at(0).provenance, expected);
 }
 
 TEST(Csv, CommentsOfOthersAreNotTakenForProvenance) {
