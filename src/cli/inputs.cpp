@@ -9,7 +9,9 @@
 
 #include "cli/launched.hpp"
 #include "cli/session.hpp"
+#include "core/bytes/file_bytes.hpp"
 #include "core/text.hpp"
+#include "io/carried_meta.hpp"
 #include "io/columns.hpp"
 #include "io/files.hpp"
 #include "io/source_text.hpp"
@@ -48,12 +50,53 @@ std::vector<std::string> named_files(const Sources& from) {
     return from.inputs;
 }
 
+/// A stream whose provenance is in a sidecar file.
+class WithProvenance final : public io::PointStream {
+  public:
+    WithProvenance(std::unique_ptr<io::PointStream> points, Provenance meta)
+        : points_(std::move(points)), meta_(std::move(meta)) {}
+
+    std::size_t dimension() const override { return points_->dimension(); }
+    bool next_set() override { return points_->next_set(); }
+    std::optional<std::size_t> sets() const override { return points_->sets(); }
+    std::optional<std::uint64_t> count() const override { return points_->count(); }
+    const Provenance& provenance() const override { return meta_; }
+    bool held() const override { return points_->held(); }
+    std::size_t read(std::span<double> rows) override { return points_->read(rows); }
+    std::uint64_t skip(std::uint64_t count) override { return points_->skip(count); }
+    std::vector<PointSet> read_all(const RunContext& run) override {
+        auto sets = points_->read_all(run);
+        io::tell_origin(sets, meta_);
+        return sets;
+    }
+
+  private:
+    std::unique_ptr<io::PointStream> points_;
+    Provenance meta_;
+};
+
+/// The points of a file with the provenance beside it, if that is of as many points.
+std::unique_ptr<io::PointStream> with_sidecar(std::unique_ptr<io::PointStream> points,
+                                              const std::string& path, const RunContext& run) {
+    const std::string beside = io::meta_path(path);
+    if (path == "-" || !exists(status_of(beside))) return points;
+    auto carried = io::carried_meta(io::read_bytes(beside, run), beside);
+    const auto count = points->count();
+    if (carried.provenance.dimension != points->dimension() ||
+        (carried.sets > 0 && carried.sets != points->sets().value_or(carried.sets)) ||
+        carried.provenance.count != count.value_or(carried.provenance.count))
+        return points;
+    return std::make_unique<WithProvenance>(std::move(points), std::move(carried.provenance));
+}
+
 /// Opens one file to be read in blocks. @param strengths column of weights; empty: none
 std::unique_ptr<io::PointStream> open_file(const std::string& path, const Sources& from,
                                            const std::string& strengths, const RunContext& run) {
     auto [options, format] = reading_of(path, from);
     options.strengths = strengths;
-    return io::open_points(path, options, run, format);
+    auto points = io::open_points(path, options, run, format);
+    return from.verb == Verb::convert ? with_sidecar(std::move(points), path, run)
+                                      : std::move(points);
 }
 
 /// Records the domain of a table's input columns, from --parameters, --bounds or --domain; the

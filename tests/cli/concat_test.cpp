@@ -137,4 +137,20 @@ TEST(Concat, RefusesOtherNamesOrWords) {
               "0.1,steel\n0.2,brass\n0.3,oak\n0.4,steel\n");
 }
 
+// The provenance of binary files is beside them. One of other points is left alone.
+TEST(Concat, TakesTheProvenanceBesideBinaryFiles) {
+    const Sandbox box;
+    for (const char* format : {"npy", "utk"}) {
+        const std::string end = std::string(".") + format;
+        good(box.shell("for i in 0 1; do stipple generate halton -n 20 --shard $i/2 --meta -o $i" +
+                       end + "; done; stipple generate halton -n 20 --meta -o all" + end));
+        good(box.shell("stipple convert all" + end + " -o all.json; stipple convert --concat 0" +
+                       end + " 1" + end + " -o c.json"));
+        for (const char* file : {"all.json", "c.json"})
+            EXPECT_THAT(good(box.run({"reproduce", file})), HasSubstr("identical")) << format;
+        good(box.shell("cp 0" + end + " all" + end + "; stipple convert all" + end + " -o o.json"));
+        EXPECT_EQ(nlohmann::json::parse(box.read("o.json"))["meta"]["generator"], "") << format;
+    }
+}
+
 }  // namespace stipple::testing::concat_test
