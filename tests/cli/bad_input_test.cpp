@@ -448,7 +448,10 @@ TEST(BadInput, TooMuchMemoryIsRefusedBeforeStarting) {
     expect_refusal(outcome, 5, "of memory; the limit is 100 MiB");
     expect_refusal(box.shell("stipple generate halton -n 60000 -f csv | grep -v '#' | stipple "
                              "analyze kolmogorov-smirnov --max-memory 2M"),
-                   5, "sorting the coordinates needs");
+                   5, "the limit is 2 MiB");
+    expect_refusal(box.shell("stipple -q analyze kolmogorov-smirnov --generate random -n 60000 "
+                             "--max-memory 40k"),
+                   5, "sorting the coordinates needs 2.75 MiB of memory");
 }
 
 TEST(BadInput, TablesOfGeneratorsAreReadBeforeAnythingIsWritten) {
