@@ -642,7 +642,7 @@ TEST(Study, ResumeMeasuresAgainWhatLackedAFileOrMemory) {
     const std::string large =
         "stipple study --generators 'halton,lloyd:iterations=0' -n 100,50000 --analyze moments "
         "--keys mean --no-seconds --threads 1 -o ";
-    const Outcome small = box.shell(large + "l.csv --max-memory 20M");
+    const Outcome small = box.shell(large + "l.csv --max-memory 3M");
     EXPECT_EQ(small.code, 5) << small.out << small.err;
     EXPECT_THAT(box.read("l.csv"), HasSubstr("failed,limit: "));
     EXPECT_EQ(good(box.shell(large + "l.csv --resume")), "");

@@ -186,6 +186,7 @@ TEST(Api, ASetThatNobodyCouldMeanIsRefused) {
 TEST(Api, PartsOfASetThatDoNotFitAreRefused) {
     const PointSet cube = generate("halton", {.count = 50, .dimension = 2, .start = 1});
     const std::string path = "stipple_api_test.csv";
+    std::filesystem::remove(path);
     const auto expect_refused = [&](const PointSet& set, const std::string& words) {
         for (const std::string name : {"integration", "chi-square", "moments"})
             EXPECT_EQ(error_of([&] { analyze(name, set); }), words) << name;
