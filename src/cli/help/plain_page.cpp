@@ -99,7 +99,8 @@ class PlainPage {
             in_table_ = line.starts_with("<!-- stipple ") || line.starts_with("<!-- scripts/");
             constexpr std::string_view units = "<!-- scripts/guide --table ";
             if (line.starts_with(units))
-                out_ += fmt::format("    stipple list {}\n", split(line.substr(units.size()), ' ')[0]);
+                out_ +=
+                    fmt::format("    stipple list {}\n", split(line.substr(units.size()), ' ')[0]);
         } else if (line.empty() || line.starts_with("    ")) {
             end_prose();
             add_line(line);
