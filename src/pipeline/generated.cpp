@@ -284,6 +284,7 @@ SetsToMake completed(SetsToMake asked, const RunContext& run) {
 
 std::string command_of(const SetsToMake& asked) {
     const auto& [generator, options, request, sets, warps, shard, known] = asked;
+    if (request.bounds) require_box(*request.bounds);
     std::string text =
         "stipple generate " + shell_word(format_spec(generator->name, options, generator->options));
     if (request.count) text += fmt::format(" --count {}", *request.count);
