@@ -5,7 +5,6 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -47,8 +46,8 @@ void read_decimal(std::string_view text) {
     if (end != last && begins) require(std::isdigit(*end) == 0, "not all digits");
 }
 
-/// Writes a double: reading back gives the same number, and truncated digits equal printf's exact
-/// ones.
+/// Writes a double: reading back gives the same number, and truncated digits are those of the
+/// shortest text that does.
 void write_decimal(double value, int precision) {
     std::string text;
     io::append_number(text, value);
@@ -58,13 +57,17 @@ void write_decimal(double value, int precision) {
     if (!std::isfinite(value)) return;
     std::string cut;
     io::append_number(cut, value, precision);
-    std::string exact(1500, '\0');
-    exact.resize(static_cast<std::size_t>(
-        std::snprintf(exact.data(), exact.size(), "%.1100f", std::abs(value))));
+    std::string whole(500, '\0');
+    whole.resize(static_cast<std::size_t>(std::to_chars(whole.data(), whole.data() + whole.size(),
+                                                        std::abs(value), std::chars_format::fixed)
+                                              .ptr -
+                                          whole.data()));
+    if (whole.find('.') == std::string::npos) whole += '.';
     const auto digits = static_cast<std::size_t>(precision);
-    exact.resize(exact.find('.') + (digits == 0 ? 0 : digits + 1));
-    const bool nothing = exact.find_first_of("123456789") == std::string::npos;
-    require(cut == (std::signbit(value) && !nothing ? "-" : "") + exact, "cut to " + cut);
+    whole.append(digits, '0');
+    whole.resize(whole.find('.') + (digits == 0 ? 0 : digits + 1));
+    const bool nothing = whole.find_first_of("123456789") == std::string::npos;
+    require(cut == (std::signbit(value) && !nothing ? "-" : "") + whole, "cut to " + cut);
 }
 
 void numbers(std::string_view bytes) {
