@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <fftw3.h>
+#include <pthread.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -16,9 +17,13 @@ namespace {
 
 fftw_complex* as_fftw(double* p) { return reinterpret_cast<fftw_complex*>(p); }
 
-/// Lock for FFTW's planner, which is not thread-safe.
+/// Lock for FFTW's planner, which is not thread-safe. A fork waits until no thread plans: the child
+/// has no thread that could release the lock.
 std::mutex& planner() {
     static std::mutex mutex;
+    static const int waits = ::pthread_atfork([] { planner().lock(); }, [] { planner().unlock(); },
+                                              [] { planner().unlock(); });
+    static_cast<void>(waits);
     return mutex;
 }
 
