@@ -146,7 +146,7 @@ struct SummaryText {
           means(summary.means(style, options, run)),
           pairs(summary.comparisons(style, options, run)) {}
 
-    /// What separates tables in one stream.
+    /// Text between two tables in one output.
     [[nodiscard]] std::string gap() const { return style == TableStyle::csv ? "\n" + preface : ""; }
     void write_beside(const std::string& path) const {
         write_text(beside(path, "summary"), preface + means);

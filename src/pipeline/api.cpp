@@ -71,9 +71,7 @@ PointSet generate(std::string_view text, const Request& request, const Settings&
                   const RunContext& run) try {
     const Spec spec = spec_without_coordinates(text);
     const Generator& generator = find_generator(spec.name);
-    SetsToMake job{&generator, merged(spec, generator.options, settings), request};
-    job.command = command_of(job);
-    return GeneratedSets(std::move(job), run).made(0, run);
+    return generate(generator, request, merged(spec, generator.options, settings), run);
 } catch (...) {
     throw_to_caller();
 }
@@ -82,12 +80,12 @@ Report analyze(std::string_view text, const PointSet& points, const Settings& se
                const RunContext& run) try {
     const Spec spec = spec_without_coordinates(text);
     const Analyzer& analyzer = find_analyzer(spec.name);
-    check_densities(points);
     if (!points.domain) {
         PointSet placed = points;
         placed.domain = unit_cube(points.dimension());
         return analyze(text, placed, settings, run);
     }
+    check_densities(points);
     return analyze(analyzer, points, merged(spec, analyzer.options, settings), run);
 } catch (...) {
     throw_to_caller();

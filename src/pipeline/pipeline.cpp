@@ -45,7 +45,9 @@ std::unique_ptr<Accumulator> accumulator_for(const Analyzer& analyzer, const Arr
 
 PointSet generate(const Generator& generator, const Request& request, const Values& options,
                   const RunContext& run) {
-    return GeneratedSets({&generator, options, request}, run).made(0, run);
+    SetsToMake job{&generator, options, request};
+    job.command = command_of(job);
+    return GeneratedSets(std::move(job), run).made(0, run);
 }
 
 std::string way_to_cube(const PointSet& points) {

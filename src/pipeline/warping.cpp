@@ -38,12 +38,17 @@ void record_warp(PointSet& set, const WarpChain& chain, bool inverse,
     meta.warps.push_back(warp);
 }
 
+/// The mapping of a warp that is given `dimension` coordinates, unless it names its own.
+auto mapping_of(const Spec& spec, std::size_t dimension, const RunContext& run) {
+    const Warp& warp = find_warp(spec.name);
+    const std::size_t given = spec.coordinates.empty() ? dimension : spec.coordinates.size();
+    return warp.make(spec.values(warp.options), given, run);
+}
+
 /// Numbers per row before a warp, if its images have rows of `after` numbers.
 /// @throws Error(input) if the images have another dimension
 std::size_t dimension_before(const Spec& spec, std::size_t after, const RunContext& run) {
-    const Warp& warp = find_warp(spec.name);
-    const std::size_t given = spec.coordinates.empty() ? after : spec.coordinates.size();
-    const auto mapping = warp.make(spec.values(warp.options), given, run);
+    const auto mapping = mapping_of(spec, after, run);
     const std::size_t gives = mapping->domain()->dimension();
     if (gives > after || (spec.coordinates.empty() && gives != after))
         fail(ErrorKind::input, "the images of {} are points of {} numbers; these have {}",
@@ -53,9 +58,7 @@ std::size_t dimension_before(const Spec& spec, std::size_t after, const RunConte
 
 /// Numbers per row before an inverse, if its images have rows of `after` numbers.
 std::size_t dimension_before_inverse(const Spec& spec, std::size_t after, const RunContext& run) {
-    const Warp& warp = find_warp(spec.name);
-    const std::size_t given = spec.coordinates.empty() ? after : spec.coordinates.size();
-    const auto mapping = warp.make(spec.values(warp.options), given, run);
+    const auto mapping = mapping_of(spec, after, run);
     return after - mapping->cube_dimension() + mapping->domain()->dimension();
 }
 
@@ -227,10 +230,8 @@ std::size_t dimension_before_step(std::string_view step, std::size_t after, cons
 }
 
 bool takes_whole_sets(const Spec& warp, std::size_t dimension, const RunContext& run) {
-    const Warp& unit = find_warp(warp.name);
-    const std::size_t given = warp.coordinates.empty() ? dimension : warp.coordinates.size();
-    return unit.traits.needs_whole_set &&
-           unit.make(warp.values(unit.options), given, run)->set_step();
+    return find_warp(warp.name).traits.needs_whole_set &&
+           mapping_of(warp, dimension, run)->set_step();
 }
 
 std::vector<std::uint32_t> digit_bases(const Provenance& meta) {

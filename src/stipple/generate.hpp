@@ -31,7 +31,7 @@ struct Request {
     std::uint64_t seed = 1;
 };
 
-/// Options as text, {{"base", "3"}}, in addition to those of the spec, or in place of them.
+/// Options as text, {{"base", "3"}}; they override those of the spec.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 /// Names of all generators, in alphabetical order.

@@ -209,9 +209,7 @@ class StudyFile::TableReader {
         if (!like_) return;
         const std::uint64_t unit = own_unit();
         // Memory and files may be there now: such a unit is measured again.
-        if (failure_ &&
-            (failure_->reason.starts_with("limit: ") || failure_->reason.starts_with("file: ")))
-            return;
+        if (failure_ && failure_->lacked_something()) return;
         if (failure_) file_.note_failure(unit, *failure_);
         file_.store({unit, unit + 1}, begin_, end_ - begin_);
         usual_keys_[like_->measure] = {*like_, std::move(keys_)};

@@ -63,7 +63,7 @@ class StudySummary {
   public:
     void add(const StudyRow& row);
 
-    /// Seed of the first set that has a value; 1 if there is none.
+    /// Seed of the first set with a result; 1 if no set has one.
     [[nodiscard]] std::uint64_t first_seed() const {
         return samples_.empty() ? 1 : samples_[0].seeds[0];
     }

@@ -16,6 +16,10 @@
 
 namespace stipple {
 
+// Beginnings of the reasons of failures.
+inline constexpr std::string_view lack_of_memory = "limit: ";
+inline constexpr std::string_view lack_of_file = "file: ";
+
 /// One number of one measure of one set, or the reason why it is missing.
 struct StudyRow {
     std::string generator = {};  ///< spec
@@ -37,6 +41,10 @@ struct StudyRow {
     std::optional<double> seconds = {};
 
     [[nodiscard]] bool failed() const { return status != "ok"; }
+    /// Whether memory or a file was lacking, which may be there in another run.
+    [[nodiscard]] bool lacked_something() const {
+        return reason.starts_with(lack_of_memory) || reason.starts_with(lack_of_file);
+    }
 };
 
 struct KeyedNumber {

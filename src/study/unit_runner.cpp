@@ -75,11 +75,8 @@ void attempt(UnitResult& result, double& seconds, std::optional<double> limit,
         if (e.kind() == ErrorKind::cancelled) throw;
         const bool limited = e.kind() == ErrorKind::limit;
         const bool file = e.kind() == ErrorKind::io && dynamic_cast<const Error*>(&thrown);
-        result.failure = one_line(fmt::format("{}{}",
-                                              limited ? "limit: "
-                                              : file  ? "file: "
-                                                      : "",
-                                              e.what()));
+        const auto lack = limited ? lack_of_memory : file ? lack_of_file : "";
+        result.failure = one_line(fmt::format("{}{}", lack, e.what()));
         result.out_of_memory =
             limited && (dynamic_cast<const std::bad_alloc*>(&thrown) != nullptr ||
                         e.hint().find("--max-memory") != std::string::npos);

@@ -344,8 +344,7 @@ const Row rows[] = {  // an array, as a vector would copy each
     {"--summary", "", "",
      "means with standard errors, t and bootstrap intervals, medians, root mean squares, and "
      "pairwise comparisons of generators with Holm-corrected p-values; also of the table of a "
-     "study "
-     "that is the INPUT",
+     "study that is the INPUT",
      study, &StudyRequest::summary},
     {"--wide", "", "",
      "instead of rows, a table of the means with a row for each count and a column for each "
