@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "analyzers/outside.hpp"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 namespace stipple::analyzers {
 
 void refuse(const Outside& outside, std::uint64_t total, const Domain& domain, std::string hint) {
     fail_with_hint(ErrorKind::input, std::move(hint),
                    "{} of {} points are outside the domain {}; the first is point {}: ({})",
-                   outside.count, total, domain.title(), outside.first,
-                   fmt::join(outside.point, ", "));
+                   outside.count, total, domain.title(), outside.first, join(outside.point, ", "));
 }
 
 void require_finite(const PointSet& points) {

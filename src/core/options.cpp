@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/options.hpp"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,6 @@
 
 namespace stipple {
 namespace {
-
-std::string joined(const std::vector<double>& numbers) {
-    return fmt::format("{}", fmt::join(numbers, ","));
-}
 
 std::vector<std::string> words(std::string_view text, char separator) {
     std::vector<std::string> out;
@@ -116,15 +112,13 @@ std::string format_value(const Value& value) {
         std::string operator()(std::int64_t i) const { return std::to_string(i); }
         std::string operator()(double x) const { return format_number(x); }
         std::string operator()(const std::string& s) const { return s; }
-        std::string operator()(const std::vector<double>& v) const { return joined(v); }
+        std::string operator()(const std::vector<double>& v) const { return join(v, ","); }
         std::string operator()(const Table& rows) const {
             std::vector<std::string> parts;
-            for (const auto& row : rows) parts.push_back(joined(row));
+            for (const auto& row : rows) parts.push_back(join(row, ","));
             return join(parts, " ");
         }
-        std::string operator()(const std::vector<std::int64_t>& v) const {
-            return fmt::format("{}", fmt::join(v, "x"));
-        }
+        std::string operator()(const std::vector<std::int64_t>& v) const { return join(v, "x"); }
     } text;
     return std::visit(text, value);
 }

@@ -139,10 +139,10 @@ std::string format_spec(std::string_view name, const Values& values, const Schem
     bool first = true;
     for (const Option& option : schema.options()) {
         const auto& item = values.find(option.name);
-        const bool unset = option.optional && !item.given;
         const std::string text = format_value(item.value);
-        // Compared as text: -0 equals 0, but is a different value.
-        if (unset || text == format_value(option.fallback)) continue;
+        // Compared as text: -0 equals 0, but is a different value. An optional option that is given
+        // says something, whatever its value.
+        if (option.optional ? !item.given : text == format_value(option.fallback)) continue;
         add_setting(spec, option.name, text, std::exchange(first, false));
     }
     return spec;

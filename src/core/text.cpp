@@ -157,7 +157,18 @@ std::vector<std::string_view> split_formulas(std::string_view text, char separat
 }
 
 std::string join(std::span<const std::string> words, std::string_view between) {
-    return fmt::format("{}", fmt::join(words, between));
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (i > 0) text += between;
+        text += words[i];
+    }
+    return text;
+}
+
+std::string join(std::span<const double> numbers, std::string_view between) {
+    std::vector<std::string> words;
+    for (const double number : numbers) words.push_back(format_number(number));
+    return join(words, between);
 }
 
 std::string lower_case(std::string_view text) {
@@ -231,7 +242,6 @@ bool is_obeyed(char32_t letter) {
 
 void append_escaped(std::string& out, char32_t letter) {
     const auto code = static_cast<std::uint32_t>(letter);
-    const auto end = std::back_inserter(out);
     if (letter == U'\n')
         out += "\\n";
     else if (letter == U'\r')
@@ -239,9 +249,9 @@ void append_escaped(std::string& out, char32_t letter) {
     else if (letter == U'\t')
         out += "\\t";
     else if (code < 0x80)
-        fmt::format_to(end, "\\x{:02x}", code);
+        out += fmt::format("\\x{:02x}", code);
     else
-        fmt::format_to(end, "\\u{:04x}", code);
+        out += fmt::format("\\u{:04x}", code);
 }
 
 /// The first letters, up to the maximum shown in messages.
@@ -288,8 +298,7 @@ std::string printable(std::string_view text) {
     while (!text.empty()) {
         const Letter letter = first_letter(text);
         if (!letter.valid)
-            fmt::format_to(std::back_inserter(out), "\\x{:02x}",
-                           static_cast<unsigned char>(text[0]));
+            out += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[0]));
         else if (is_obeyed(letter.point))
             append_escaped(out, letter.point);
         else

@@ -3,6 +3,7 @@
 // Parsing, formatting and quoting of text: numbers, sizes, names, UTF-8.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -42,6 +43,20 @@ std::vector<std::string_view> split(std::string_view text, char separator);
 std::vector<std::string_view> split_formulas(std::string_view text, char separator);
 
 std::string join(std::span<const std::string> words, std::string_view between);
+/// Numbers as format_number() writes them.
+std::string join(std::span<const double> numbers, std::string_view between);
+
+/// Whole numbers in a list of type List.
+template <class List>
+requires std::integral<typename List::value_type> std::string join(const List& numbers,
+                                                                   std::string_view between) {
+    std::string text;
+    for (const auto number : numbers) {
+        if (!text.empty()) text += between;
+        text += std::to_string(number);
+    }
+    return text;
+}
 
 /// Capitalizes the first letter.
 std::string capitalised(std::string text);

@@ -10,6 +10,7 @@
 #include "core/bytes/file_bytes.hpp"
 #include "core/bytes/fingerprint.hpp"
 #include "core/error.hpp"
+#include "core/machine/memory.hpp"
 #include "core/parallel.hpp"
 #include "core/product_domain.hpp"
 #include "core/rng.hpp"
@@ -175,8 +176,7 @@ void WarpChain::set_bases(Values& values, const Scramble& scramble,
     for (const std::size_t k : coordinates)
         own.push_back(bases.size() == 1 ? bases[0] : bases.at(from_[k]));
     if (std::ranges::count(own, own.front()) == std::ssize(own)) own.resize(1);
-    if (own != std::vector<std::uint32_t>{2})
-        scramble.options.set(values, "base", fmt::format("{}", fmt::join(own, ",")));
+    if (own != std::vector<std::uint32_t>{2}) scramble.options.set(values, "base", join(own, ","));
 }
 
 void WarpChain::add_scramble(const Scramble& scramble, const Spec& spec, const ChainSet& set) {
@@ -352,7 +352,7 @@ std::vector<double> in_blocks(
     all.reserve(numbers);
     for (auto& part : parts) {
         all.insert(all.end(), part.begin(), part.end());
-        part = {};  // frees it, so that memory does not hold the points twice
+        release(part);  // memory must not hold the points twice
     }
     return all;
 }

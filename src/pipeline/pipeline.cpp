@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/pipeline.hpp"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/text.hpp"
 #include "pipeline/chain.hpp"
 
 namespace stipple {
@@ -84,7 +85,7 @@ void require_in_cube(const PointSet& points, std::span<const std::size_t> coordi
     fail_with_hint(ErrorKind::input, hint,
                    "{} of {} points are outside {}; the first is point {}: ({})", count,
                    points.count(), cube, first,
-                   fmt::join(gather(points[first], points.dimension(), coordinates), ", "));
+                   join(gather(points[first], points.dimension(), coordinates), ", "));
 }
 
 void require_unit_cube(const PointSet& points) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/set_writer.hpp"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ double finite(const char* column, double value, std::span<const double> point, b
     fail_with_hint(
         ErrorKind::input,
         starts ? "--start 1 leaves out a sequence's first point, where coordinates are 0" : "",
-        "--{}: the value at the point ({}) is infinite", column, fmt::join(point, ", "));
+        "--{}: the value at the point ({}) is infinite", column, join(point, ", "));
 }
 
 /// Writes the rows of one set, a batch of blocks at a time. Returns false if the pipe was closed.

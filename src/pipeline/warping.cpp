@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/warping.hpp"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/text.hpp"
 #include "io/columns.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/pipeline.hpp"
@@ -115,7 +116,7 @@ struct Warping {
         for (std::size_t i = 0; i < rows.size(); i += d)
             if (const auto row = rows.subspan(i, d); !in_cube(row, taken))
                 fail(ErrorKind::input, "point {} is outside {}: ({})", first + i / d, cube,
-                     fmt::join(gather(row, d, taken), ", "));
+                     join(gather(row, d, taken), ", "));
     }
 
     /// Sets `stretch` to the warp alone, without the domains of other coordinates.

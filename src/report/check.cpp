@@ -2,7 +2,6 @@
 #include "report/check.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -98,8 +97,8 @@ std::string_view meant_by(std::string_view op) {
 
 /// Lists words: "uniform, non-uniform or stratified".
 std::string listed(const std::vector<std::string_view>& words) {
-    const std::span most = std::span(words).first(words.size() - 1);
-    return fmt::format("{} or {}", fmt::join(most, ", "), words.back());
+    const std::vector<std::string> most(words.begin(), words.end() - 1);
+    return fmt::format("{} or {}", join(most, ", "), words.back());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "study/statistics.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -32,6 +33,23 @@ bool equal_but_for_rounding(double a, double b) {
 
 /// a - b, or 0 if they are equal but for rounding.
 double difference_of(double a, double b) { return equal_but_for_rounding(a, b) ? 0 : a - b; }
+
+/// A power of two near the largest magnitude. Numbers divided by it have squares that neither
+/// overflow nor vanish, and the same digits.
+double scale_of(std::span<const double> numbers) {
+    double largest = 0;
+    for (const double x : numbers) largest = std::max(largest, std::abs(x));
+    const bool usual = largest > 0 && std::isfinite(largest);
+    return usual ? std::ldexp(1, std::clamp(std::ilogb(largest), -1022, 1022)) : 1;
+}
+
+/// sqrt((a^2 + b^2 + ...) / divisor)
+double root_of_squares(std::span<const double> numbers, double divisor) {
+    const double scale = scale_of(numbers);
+    double squares = 0;
+    for (const double x : numbers) squares += x / scale * (x / scale);
+    return scale * std::sqrt(squares / divisor);
+}
 
 /// Completes a test from the difference, its error and the degrees of freedom.
 MeanTest tested(double difference, double error, double degrees) {
@@ -66,9 +84,8 @@ SampleSummary summarize(std::span<const double> sample) {
         s.deviation = s.standard_error = 0;
         return s;
     }
-    double squares = 0;
-    for (const double x : sample) squares += (x - s.mean) * (x - s.mean);
-    s.deviation = std::sqrt(squares / (n - 1));
+    std::ranges::transform(sample, sorted.begin(), [&](double x) { return x - s.mean; });
+    s.deviation = root_of_squares(sorted, n - 1);
     s.standard_error = s.deviation / std::sqrt(n);
     return s;
 }
@@ -82,9 +99,7 @@ Interval t_interval(const SampleSummary& sample, double confidence) {
 }
 
 double root_mean_square(std::span<const double> sample) {
-    double squares = 0;
-    for (const double x : sample) squares += x * x;
-    return std::sqrt(squares / static_cast<double>(sample.size()));
+    return root_of_squares(sample, static_cast<double>(sample.size()));
 }
 
 Interval rms_interval(std::span<const double> sample, double confidence) {
@@ -118,14 +133,16 @@ Interval bootstrap_interval(std::span<const double> sample, double confidence,
 MeanTest welch_test(std::span<const double> a, std::span<const double> b) {
     const SampleSummary x = summarize(a);
     const SampleSummary y = summarize(b);
-    const double u = x.standard_error * x.standard_error;
-    const double v = y.standard_error * y.standard_error;
     if (!(a.size() > 1 && b.size() > 1))
         return tested(difference_of(x.mean, y.mean), not_known, not_known);
-    const double share = u / (u + v);  // the squares of u and v may underflow
+    const std::array errors = {x.standard_error, y.standard_error};
+    const double scale = scale_of(errors);
+    const double u = errors[0] / scale * (errors[0] / scale);
+    const double v = errors[1] / scale * (errors[1] / scale);
+    const double share = u / (u + v);
     const double degrees = 1 / (share * share / static_cast<double>(a.size() - 1) +
                                 (1 - share) * (1 - share) / static_cast<double>(b.size() - 1));
-    return tested(difference_of(x.mean, y.mean), std::sqrt(u + v), degrees);
+    return tested(difference_of(x.mean, y.mean), root_of_squares(errors, 1), degrees);
 }
 
 MeanTest paired_test(std::span<const double> a, std::span<const double> b) {

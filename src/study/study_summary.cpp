@@ -83,13 +83,14 @@ struct Paired {
 
 Paired paired(const std::vector<std::uint64_t>& seeds_a, const std::vector<double>& a,
               const std::vector<std::uint64_t>& seeds_b, const std::vector<double>& b) {
+    std::map<std::uint64_t, double> of_seed;
+    for (std::size_t j = 0; j < b.size(); ++j) of_seed.emplace(seeds_b[j], b[j]);
     Paired both;
-    for (std::size_t i = 0, j = 0; i < a.size(); ++i) {
-        while (j < b.size() && seeds_b[j] < seeds_a[i]) ++j;
-        if (j == b.size() || seeds_b[j] != seeds_a[i]) continue;
-        both.a.push_back(a[i]);
-        both.b.push_back(b[j]);
-    }
+    for (std::size_t i = 0; i < a.size(); ++i)
+        if (const auto found = of_seed.find(seeds_a[i]); found != of_seed.end()) {
+            both.a.push_back(a[i]);
+            both.b.push_back(found->second);
+        }
     return both;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/sweep.hpp"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
@@ -184,8 +184,8 @@ void Sweep::write_settings() {
                  {"generators", names_of(generators_)},
                  {"analyze", names_of(measures_)},
                  {"warp", warp_names_},
-                 {"count", fmt::format("{}", fmt::join(r.counts, ","))},
-                 {"dimension", fmt::format("{}", fmt::join(r.dimensions, ","))},
+                 {"count", join(r.counts, ",")},
+                 {"dimension", join(r.dimensions, ",")},
                  {"seed", std::to_string(r.first_seed)},
                  {"seeds", std::to_string(r.seeds)},
                  {"keys", join(r.keys, ",")},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "warps/warp.hpp"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "core/spec.hpp"
+#include "core/text.hpp"
 
 namespace stipple {
 namespace {
@@ -89,7 +90,7 @@ void Mapping::check_way_back() const {
 }
 
 void Mapping::refuse_outside(std::span<const double> point) const {
-    fail(ErrorKind::input, "the point ({}) is outside the domain {}", fmt::join(point, ", "),
+    fail(ErrorKind::input, "the point ({}) is outside the domain {}", join(point, ", "),
          domain_->title());
 }
 

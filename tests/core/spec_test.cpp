@@ -28,6 +28,17 @@ TEST(ParseSpec, TakesNamesOfOptionsAsPythonHasThem) {
         (std::vector<std::pair<std::string, std::string>>{{"half-angle", "3"}, {"axis", "a_b"}}));
 }
 
+TEST(FormatSpec, KeepsOptionalOptionsThatAreGivenTheirEmptyValue) {
+    const Schema schema(Param<std::int64_t>{.name = "decay", .optional = true},
+                        Param<double>{.name = "radius", .fallback = 1});
+    const auto formatted = [&](std::string_view spec) {
+        return format_spec("unit", parse_spec(spec).values(schema), schema);
+    };
+    EXPECT_EQ(formatted("unit:decay=0"), "unit:decay=0");
+    EXPECT_EQ(formatted("unit:radius=1"), "unit");
+    EXPECT_EQ(formatted("unit"), "unit");
+}
+
 TEST(SplitSpecs, NamesTheColumnOfWhatIsUnbalancedOrMissing) {
     EXPECT_EQ(error_of([] { split_specs("random,a:v=[0,[1]", "--generators"); }),
               "usage: --generators, column 12: this '[' has no ']'");

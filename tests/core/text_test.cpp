@@ -81,6 +81,14 @@ TEST(Text, NearestWordsAreThoseThatCouldBeMeant) {
     EXPECT_EQ(quoted_list({"a", "b", "c"}, "and"), "'a', 'b' and 'c'");
 }
 
+TEST(Text, JoinsWordsAndNumbers) {
+    EXPECT_EQ(join(std::vector<std::string>{"", "a", ""}, ","), ",a,");
+    EXPECT_EQ(join(std::vector<double>{0.1, -2, 1e300}, ", "), "0.1, -2, 1e+300");
+    EXPECT_EQ(join(std::vector<std::uint32_t>{7}, "x"), "7");
+    EXPECT_EQ(join(std::vector<std::int64_t>{-1, 2}, "x"), "-1x2");
+    EXPECT_EQ(join(std::vector<std::int64_t>{}, "x"), "");
+}
+
 TEST(Text, SplitsKeepEmptyParts) {
     EXPECT_EQ(split("a,b", ','), (std::vector<std::string_view>{"a", "b"}));
     EXPECT_EQ(split("a,,", ','), (std::vector<std::string_view>{"a", "", ""}));

@@ -37,6 +37,20 @@ TEST(Statistics, AgreesWithSciPy) {
     EXPECT_NEAR(t_interval(s, 0.95).high, 5.289150255123345, 1e-13);
 }
 
+TEST(Statistics, DoesNotDependOnTheScaleHoweverSmallOrLarge) {
+    for (const int power : {-900, -540, 540, 900}) {
+        std::vector<double> x = a;
+        std::vector<double> y = b;
+        for (double& v : x) v = std::ldexp(v, power);
+        for (double& v : y) v = std::ldexp(v, power);
+        EXPECT_EQ(summarize(x).deviation, std::ldexp(summarize(a).deviation, power));
+        EXPECT_EQ(root_mean_square(x), std::ldexp(root_mean_square(a), power));
+        EXPECT_EQ(welch_test(x, y).p_value, welch_test(a, b).p_value);
+        EXPECT_EQ(welch_test(x, y).degrees, welch_test(a, b).degrees);
+        EXPECT_EQ(paired_test(x, y).p_value, paired_test(a, b).p_value);
+    }
+}
+
 // Expected values from SciPy: chi2.ppf(p, 5), p = 0.025 and 0.975, and the root of the mean square.
 TEST(Statistics, IntervalOfARootMeanSquare) {
     const double rms = root_mean_square(a);

@@ -26,7 +26,7 @@
 // Source  M. S. Ebeida et al., Computer Graphics Forum 31 (2012) 785-794,
 //         doi:10.1111/j.1467-8659.2012.03059.x (maximal Poisson-disk sampling).
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -136,10 +136,10 @@ std::string complaint(double r, const Conflicts& conflicts, const EmptyBall& bal
     std::vector<std::string> reasons;
     if (conflicts.count > 0)
         reasons.push_back(fmt::format("{} pairs are closer, the first is {}", conflicts.count,
-                                      fmt::join(conflicts.first, ", ")));
+                                      join(conflicts.first, ", ")));
     if (!maximal)
-        reasons.push_back(fmt::format("({}) is {} from the nearest point",
-                                      fmt::join(ball.center, ", "), format_number(ball.radius)));
+        reasons.push_back(fmt::format("({}) is {} from the nearest point", join(ball.center, ", "),
+                                      format_number(ball.radius)));
     return fmt::format("the set is not a maximal Poisson-disk set of radius {}: {}",
                        format_number(r), join(reasons, "; "));
 }

@@ -57,6 +57,7 @@
 #include "analyzers/rings.hpp"
 #include "core/error.hpp"
 #include "core/machine/large_pages.hpp"
+#include "core/machine/memory.hpp"
 #include "core/machine/wide.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
@@ -498,7 +499,7 @@ class Summation final : public SharedAccumulator {
             sum_ = std::make_unique<FourierSummation>(*nufft_);
         }
         take(buffer_, run);
-        buffer_ = {};
+        release(buffer_);
     }
 
     /// Requires the memory to sum a large set block by block, which takes a second grid.

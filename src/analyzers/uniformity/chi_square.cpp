@@ -67,6 +67,7 @@
 #include "analyzers/uniformity/cube_rows.hpp"
 #include "analyzers/uniformity/pearson.hpp"
 #include "core/error.hpp"
+#include "core/machine/memory.hpp"
 #include "core/parallel.hpp"
 #include "math/functions/distributions.hpp"
 
@@ -333,7 +334,7 @@ class Counter final : public SharedAccumulator {
             tallies_.emplace_back(default_grid(from, axes_), options_[shifted], from, run);
             tallies_.back().add(held_, width_);
         }
-        held_ = {};
+        release(held_);
     }
 
     [[nodiscard]] Fit fit(const Tally& tally, bool second, const RunContext& run) const {

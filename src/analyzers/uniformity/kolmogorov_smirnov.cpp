@@ -43,6 +43,7 @@
 #include "analyzers/uniformity/cube_rows.hpp"
 #include "analyzers/uniformity/kolmogorov.hpp"
 #include "core/error.hpp"
+#include "core/machine/memory.hpp"
 #include "core/parallel.hpp"
 #include "math/combinatorics/radix_sort.hpp"
 
@@ -185,7 +186,7 @@ class Collector final : public SharedAccumulator {
         run.need_memory(8.0 * static_cast<double>(axes_ * cells_), "the cells of all axes");
         counts_.resize(axes_ * cells_);
         count(buffer_, run);
-        buffer_ = {};
+        release(buffer_);
     }
 
     /// Counts each axis on a single thread, since the axes have separate counts.

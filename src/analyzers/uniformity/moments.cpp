@@ -28,7 +28,6 @@
 //         (standard errors by the delta method).
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +38,7 @@
 #include "analyzers/uniformity/cube_rows.hpp"
 #include "analyzers/uniformity/moment_sums.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 namespace stipple::analyzers::moments {
 namespace {
@@ -83,7 +83,7 @@ Report finite_of(const SampleMoments& exact) {
     report.add("known", missing.empty());
     if (!missing.empty())
         report.add("missing", fmt::format("{}: infinite, undefined, or not known within 1e-9",
-                                          fmt::join(missing, ", ")));
+                                          join(missing, ", ")));
     return report;
 }
 

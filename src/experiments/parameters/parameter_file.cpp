@@ -2,7 +2,6 @@
 #include "experiments/parameters/parameter_file.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -116,13 +115,13 @@ class ParameterReader {
         : place_(place), before_(before) {}
 
     Parameter read() {
-        constexpr std::array kinds = {"range",  "distribution", "integers",
-                                      "levels", "values",       "file"};
+        const std::vector<std::string> kinds = {"range",  "distribution", "integers",
+                                                "levels", "values",       "file"};
         if (!place_.value().is_object()) place_.refuse("expected an object, {\"name\": ...}");
         const auto given =
-            std::ranges::count_if(kinds, [&](const char* k) { return place_.has(k); });
+            std::ranges::count_if(kinds, [&](const auto& k) { return place_.has(k.c_str()); });
         if (given != 1)
-            place_.refuse(fmt::format("expected one of the keys {}; {}", fmt::join(kinds, ", "),
+            place_.refuse(fmt::format("expected one of the keys {}; {}", join(kinds, ", "),
                                       given == 0 ? "none is given" : "several are given"));
         Parameter parameter{.name = name(), .unit = unit(), .levels = {}, .law = {}};
         if (place_.has("levels"))
@@ -263,7 +262,7 @@ class ParameterReader {
                 } catch (const Error& e) {
                     throw Error(ErrorKind::input,
                                 fmt::format("the parameter {}, with the preceding values {}: {}",
-                                            name, fmt::join(before, ", "), e.what()));
+                                            name, join(before, ", "), e.what()));
                 }
             };
         else
@@ -508,7 +507,7 @@ class CorrelationReader {
         place_.refuse("these correlations are not possible together",
                       fmt::format("the nearest possible ones, {}: {}",
                                   ranks ? "as \"spearman\"" : "for the scores of a Gaussian copula",
-                                  fmt::join(pairs, ", ")));
+                                  join(pairs, ", ")));
     }
 
     const Place& place_;

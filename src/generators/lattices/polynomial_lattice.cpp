@@ -157,7 +157,7 @@ std::unique_ptr<Sequence> make(const Plan& decided, const Values& options, const
     if (searches(options))
         points->set_found([=, weights = weights_of(options, decided.dimension)] {
             return std::vector{
-                std::pair{std::string("vector"), fmt::format("{}", fmt::join(vector, ","))},
+                std::pair{std::string("vector"), join(vector, ",")},
                 std::pair{std::string("squared_error"),
                           format_number(squared_polynomial_error(modulus, vector, weights))}};
         });

@@ -23,7 +23,7 @@
 //         D. Nuyens, R. Cools, Math. Comp. 75 (2006) 903-920, doi:10.1090/S0025-5718-06-01785-6;
 //         korobov: N. M. Korobov, Dokl. Akad. Nauk SSSR 124 (1959) 1207-1210.
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -224,10 +224,9 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
     Sequence::Found found;
     if (chosen == "cbc" || searches_multiplier(chosen, options))
         found = [n = plan.count, z, weight = weights_of(options, plan.dimension)] {
-            return std::vector{
-                std::pair{std::string("vector"), fmt::format("{}", fmt::join(z, ","))},
-                std::pair{std::string("squared_error"),
-                          format_number(squared_lattice_error(n, z, weight))}};
+            return std::vector{std::pair{std::string("vector"), join(z, ",")},
+                               std::pair{std::string("squared_error"),
+                                         format_number(squared_lattice_error(n, z, weight))}};
         };
     auto points = std::make_unique<Sequence>(multiples(plan.count, z), true, std::move(found));
     points->side_files = vector_files(options, {.vector = z, .points = plan.count});

@@ -12,6 +12,7 @@
 
 #include <type_traits>
 
+#include "core/machine/memory.hpp"
 #include "generators/box_space.hpp"
 #include "generators/poisson_disk/grid.hpp"
 #include "generators/poisson_disk/near_disks.hpp"
@@ -45,7 +46,7 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
     }
 
     void drop() {
-        near_ = {};
+        release(near_);
         this->pending = {};
     }
 

@@ -18,6 +18,7 @@
 #include <span>
 #include <vector>
 
+#include "core/machine/memory.hpp"
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
 #include "generators/poisson_disk/gaps.hpp"
@@ -279,7 +280,7 @@ class TileRounds {
         for (T& tile : tiles_) {
             run_.check_stop();
             out = std::ranges::copy(tile.points(), out).out;
-            tile.points() = {};
+            release(tile.points());
         }
         return rows;
     }

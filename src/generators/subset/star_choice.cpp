@@ -48,7 +48,7 @@ void flip(Bits& bits, std::size_t i) { bits[i / 64] ^= std::uint64_t{1} << (i % 
 /// Star discrepancy of a set, and its worst box.
 struct Measured {
     double value = 1;
-    bool exact = false;  ///< false: `value` is a lower bound
+    bool exact = false;  ///< false: a box that was bad enough ended the search
     Side side = Side::closed;
     std::vector<double> corner = {};
 };

@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include "core/machine/memory.hpp"
 #include "generators/poisson_disk/gaps.hpp"
 #include "generators/poisson_disk/grid.hpp"
 #include "generators/poisson_disk/near_disks.hpp"
@@ -318,7 +319,7 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
 
     /// Releases the tile's memory, except for the points.
     void drop() {
-        halo_ = {};
+        release(halo_);
         pending = {};
     }
 

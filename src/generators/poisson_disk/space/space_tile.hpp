@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "core/machine/memory.hpp"
 #include "generators/poisson_disk/space/ball_kernels.hpp"
 #include "generators/poisson_disk/space/ball_lines.hpp"
 #include "generators/poisson_disk/tile_rounds.hpp"
@@ -192,10 +193,10 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
     }
 
     void drop() {
-        lines_ = {};
-        numbers_ = {};
-        places_ = {};
-        exact_ = {};
+        release(lines_);
+        release(numbers_);
+        release(places_);
+        release(exact_);
         pending = {};
     }
 
