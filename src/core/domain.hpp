@@ -18,8 +18,8 @@ namespace stipple {
 /// The product of a box's extents.
 double volume_of(const Box& box);
 
-/// A number computed to a tolerance: the true value differs by at most `error`, where 0 means exact
-/// up to rounding.
+/// An approximate number: the true value differs from `value` by at most `error`; error 0 means
+/// exact up to rounding.
 struct Estimate {
     double value = 0;
     double error = 0;
@@ -47,7 +47,7 @@ struct Moments {
 };
 
 /// Part of a domain where its density is not 0. The mean of f / p over points with density p
-/// estimates the integral of f over this part only, so comparisons with exact values need it.
+/// estimates the integral of f over this part only, with which it must be compared.
 struct Support {
     bool whole = true;   ///< the part is the whole domain, except for a set of measure 0
     bool finite = true;  ///< the measure of the part is finite, though perhaps unknown
@@ -89,10 +89,10 @@ class Domain {
     Domain& operator=(const Domain&) = delete;
     virtual ~Domain() = default;
 
-    /// The spec that names the domain: "unit-cube", "disk", "disk:radius=2".
+    /// Spec of the domain: "unit-cube", "disk", "disk:radius=2".
     [[nodiscard]] virtual std::string spec() const = 0;
 
-    /// Name in messages.
+    /// Name of the domain in messages.
     [[nodiscard]] virtual std::string title() const { return spec(); }
 
     /// Number of coordinates of a point.
@@ -140,9 +140,9 @@ class Domain {
     [[nodiscard]] virtual std::vector<std::string> cube_axes() const = 0;
 
     /// Probability of a box of the domain's own space, for points that follow density(); nullopt if
-    /// unknown. The box may extend beyond the domain, even to infinity. Needed for mixtures: no map
-    /// to the cube preserves their probability, so their cells are boxes of the space, or zones of
-    /// the sphere.
+    /// unknown. The box may extend beyond the domain, even to infinity. Mixtures need it: no map to
+    /// the cube preserves their probability, so their points are counted in boxes of their own
+    /// space, or in zones of the sphere.
     [[nodiscard]] virtual std::optional<Estimate> box_mass(const Box& /*box*/) const {
         return std::nullopt;
     }

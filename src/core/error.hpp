@@ -25,13 +25,13 @@ template <class... Args>
     throw Error(kind, fmt::format(what, std::forward<Args>(args)...), std::move(hint));
 }
 
-/// Converts the exception being handled to an Error. Out of memory and a thread that cannot start
-/// become limits; other standard exceptions become internal errors. Call it from a handler of
+/// Converts the exception being handled to an Error. A lack of memory or of threads becomes
+/// ErrorKind::limit; other standard exceptions become internal errors. Call it from a handler of
 /// std::exception.
 Error caught_error();
 
-/// Throws the exception being handled again, as an Error if memory was lacking. Handler of the
-/// public calls; what a caller's own functions throw passes.
+/// Rethrows the exception being handled, as an Error if it reports a lack of memory. For the
+/// handlers of public calls; exceptions of a caller's own functions pass unchanged.
 [[noreturn]] void throw_to_caller();
 
 }  // namespace stipple

@@ -35,8 +35,7 @@ struct Points {};
 struct Extents {};
 
 /// Rows of numbers. Not a plain vector, since libstdc++ 12 assumes that a variant of only vectors
-/// and strings is never valueless: if copying runs out of memory, it destroys a value that does not
-/// exist.
+/// and strings is never valueless: if copying runs out of memory, it destroys an absent value.
 struct Table : std::vector<std::vector<double>> {
     using vector::vector;
 };
@@ -49,8 +48,8 @@ using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<
 /// the text is neither. @throws Error(usage) naming the option and the error in the formula
 std::optional<double> parse_formula(std::string_view option, std::string_view text);
 
-/// Value of a formula without variables. @throws Error(usage)
-/// Defined in math/densities/expression.cpp, with the formulas of densities.
+/// Value of a formula without variables. Defined in math/densities/expression.cpp, with the
+/// formulas of densities. @throws Error(usage)
 double formula_value(std::string_view option, std::string_view text);
 
 /// Parses numbers separated by commas, or by blanks in rows of a matrix; each may be a formula, as
@@ -140,7 +139,7 @@ class Values {
     [[nodiscard]] const Item* try_find(std::string_view name) const;
     [[nodiscard]] const std::vector<Item>& items() const { return items_; }
 
-    /// Sets an option without checks, for units that record values they computed.
+    /// Sets an option without checks; units record computed values in this way.
     void put(std::string_view name, Value value, bool given = true);
 
     bool operator==(const Values&) const = default;

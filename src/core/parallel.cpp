@@ -12,7 +12,7 @@
 namespace stipple {
 
 RunContext worth_threads(const RunContext& run, double seconds) {
-    // Seconds to wake threads on a busy machine; a quarter of that on an idle one.
+    // Seconds that waking threads takes on a busy machine; an idle one takes a quarter of it.
     constexpr double waking = 1e-3;
     RunContext fit = run;
     if (seconds < 2 * waking) fit.threads = 1;
@@ -36,8 +36,8 @@ RunContext unstopped(RunContext run) {
 
 namespace {
 
-/// Raises oneTBB's limit on threads, by default the number of cores. The smallest active limit
-/// applies, so the whole program has one limit object, which only grows.
+/// Raises oneTBB's limit on threads, which is the number of cores by default, to `threads`. As
+/// oneTBB applies the smallest limit of all global_control objects, the program has only one.
 void allow(unsigned threads) {
     static std::mutex mutex;
     static std::optional<tbb::global_control> bound;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Loops over blocks on all cores. The blocks depend only on the count, so sums computed per block
-// and then added in block order are the same for any number of threads.
+// Loops over blocks of indices on all cores. Blocks depend only on the count, so sums computed per
+// block and then added in block order are the same for any number of threads.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace stipple {
 
-/// Part [first, last) of a loop; block number `index`.
+/// Indices [first, last) of a loop; `index` counts the blocks from 0.
 struct Block {
     std::uint64_t first;
     std::uint64_t last;

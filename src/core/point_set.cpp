@@ -10,7 +10,8 @@
 namespace stipple {
 namespace {
 
-/// Calls make(count * width), whose result holds that many numbers.
+/// Returns make(count * width), the coordinates of `count` points. Throws Error(limit) if memory is
+/// lacking.
 template <class Make>
 auto room_for(std::size_t count, std::size_t width, const Make& make) {
     constexpr auto most = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(double);

@@ -26,8 +26,8 @@ std::array<std::uint64_t, 2> random_block(std::uint64_t seed, std::uint64_t stre
     return {join(out[0], out[1]), join(out[2], out[3])};
 }
 
-/// Equals to_unit() of the number with these halves, exactly; uses only conversions that all vector
-/// units have.
+/// Equals to_unit() of the 64-bit number with the halves `low` and `high`, exactly. Uses only
+/// conversions that all vector units have.
 constexpr double unit_of(std::uint32_t low, std::uint32_t high) {
     const auto upper = static_cast<double>(static_cast<std::int32_t>(high ^ 0x80000000U)) + 0x1p31;
     return upper * 0x1p-32 + static_cast<double>(static_cast<std::int32_t>(low >> 11)) * 0x1p-53;

@@ -37,7 +37,7 @@ class Rng {
     /// Uniform in [0, 1), a multiple of 2^-53.
     [[nodiscard]] double uniform(std::uint64_t i) const { return to_unit(bits(i)); }
 
-    /// Uniform in {0, ..., n - 1}; each value's probability is off 1/n by at most 2^-64.
+    /// Uniform in {0, ..., n - 1}; each probability is within 2^-64 of 1/n.
     [[nodiscard]] std::uint64_t below(std::uint64_t i, std::uint64_t n) const;
 
     /// Sets out[k] = uniform(first + k); much faster than single calls.

@@ -16,8 +16,8 @@
 namespace stipple {
 namespace {
 
-/// Starts a thread that waits for `leave`. Returns once the thread has allocated memory, for which
-/// the allocator reserves address space.
+/// Starts a thread that waits for `leave`. Returns once the thread has allocated memory, because
+/// the allocator reserves address space for each thread that allocates.
 void start_one(std::vector<std::thread>& started, std::latch& leave) {
     std::binary_semaphore allocated(0);
     started.emplace_back([&] {
@@ -60,7 +60,7 @@ unsigned limited_by_system(unsigned wanted) {
 
 unsigned RunContext::thread_count() const {
     static const unsigned cores =
-        std::max(1U, std::thread::hardware_concurrency());   // reads a file, hence static
+        std::max(1U, std::thread::hardware_concurrency());   // read once, since it reads a file
     constexpr std::uint64_t bytes = std::uint64_t{1} << 20;  // stack and heap of one thread
     const auto fit = std::clamp<std::uint64_t>(max_memory / bytes, 1, ~0U);
     return limited_by_system(

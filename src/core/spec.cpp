@@ -61,7 +61,7 @@ class SpecParser {
     std::pair<std::string, std::string> setting() {
         std::string name = take_until("=,[]");
         if (name.empty()) complain("an option's name is expected");
-        std::ranges::replace(name, '_', '-');  // as arguments of Python are named
+        std::ranges::replace(name, '_', '-');  // names of Python arguments have underscores
         if (!accept('=')) return {std::move(name), "true"};
         if (!accept('[')) {
             std::string value = take_until(",[]");
@@ -88,7 +88,7 @@ class SpecParser {
     std::size_t at_ = 0;
 };
 
-/// Whether the text after a comma is a number, which is no unit's name: halton -w disk@1,2.
+/// Whether the text after a comma is a number and so cannot begin a spec, as in disk@1,2.
 bool is_numeric(std::string_view rest) {
     return !rest.empty() && std::string_view("0123456789.+-").find(rest[0]) != rest.npos;
 }

@@ -18,7 +18,7 @@ namespace stipple {
 
 struct Spec {
     std::string name;
-    std::vector<std::size_t> coordinates;  ///< from 0; empty: all
+    std::vector<std::size_t> coordinates;  ///< indices from 0; empty: all coordinates
     /// Names of options, and their values as text.
     std::vector<std::pair<std::string, std::string>> settings;
 
@@ -45,7 +45,8 @@ std::string format_spec(std::string_view name, const Values& values, const Schem
 std::vector<std::pair<std::string, std::string>> typed_settings(const Values& values,
                                                                 const Schema& schema);
 
-/// Specs for a message, without the options of those that are long, such as a parameter file's text.
+/// List of specs for a message. Long specs, such as one that contains the text of a parameter file,
+/// are shown without their options.
 std::string short_specs(std::span<const std::string> specs);
 
 /// Coordinates in the form used after @, counted from 1: "4,5".

@@ -24,8 +24,7 @@ std::optional<T> parse_whole(std::string_view text, int base = 10) {
     return value;
 }
 
-/// Parses a number and multiplies it; nullopt if the result is not whole or does not fit into 63
-/// bits.
+/// Parses a number and multiplies it; nullopt if the result is not whole or exceeds 63 bits.
 std::optional<std::int64_t> scaled(std::string_view text, double factor) {
     const auto value = parse_number(text);
     if (!value) return std::nullopt;
@@ -53,9 +52,10 @@ double suffix_factor(char suffix) {
     return place == letters.npos ? 0 : std::ldexp(1.0, 10 * static_cast<int>(place + 1));
 }
 
-/// Smallest number of letters to insert, delete, replace, or swap with their neighbour.
+/// Smallest number of edits that turn a into b; an edit inserts, deletes or replaces a letter, or
+/// swaps two neighbours.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> before;  // the row for a prefix of a that is two letters shorter
+    std::vector<std::size_t> before;  // distances from a prefix of a that is two letters shorter
     std::vector<std::size_t> last;
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -230,8 +230,8 @@ namespace {
 
 using Utf8 = boost::locale::utf::utf_traits<char>;
 
-/// Whether a terminal would obey the letter instead of showing it: control characters, line ends,
-/// marks that change the direction of writing, and noncharacters.
+/// Whether a terminal would interpret the letter instead of showing it: control characters, line
+/// ends, marks that change the direction of writing, and noncharacters.
 bool is_obeyed(char32_t letter) {
     const auto in = [letter](char32_t low, char32_t high) {
         return letter >= low && letter <= high;
@@ -254,7 +254,7 @@ void append_escaped(std::string& out, char32_t letter) {
         out += fmt::format("\\u{:04x}", code);
 }
 
-/// The first letters, up to the maximum shown in messages.
+/// The front of a text, up to the maximum number of letters shown in messages.
 std::string_view front_of(std::string_view text) {
     constexpr std::size_t most = 80;
     std::size_t bytes = 0;

@@ -100,15 +100,14 @@ std::string utf8_of(std::u32string_view letters);
 /// direction of writing, and invalid UTF-8 as \n, \x1b, \u202e, \xff.
 std::string printable(std::string_view text);
 
-/// Truncates words of more than 1000 bytes and text beyond 8000 bytes, since messages repeat user
-/// input.
+/// Truncates words beyond 1000 bytes and text beyond 8000, since messages repeat user input.
 std::string cut_short(std::string_view text);
 
 /// A word quoted for a shell if necessary.
 std::string shell_word(const std::string& word);
 
-/// Quotes untrusted text for a message: escaped; beyond 80 letters truncated, with its size in
-/// bytes.
+/// Quotes and escapes untrusted text for a message; cuts off all after 80 letters and adds its
+/// size.
 std::string shown(std::string_view text);
 
 }  // namespace stipple

@@ -17,10 +17,10 @@ namespace {
 constexpr std::size_t block = std::size_t{1} << 16;
 constexpr int gzip_window = 15 + 16;  // largest window; +16 selects the gzip header and checksum
 
-/// Number of bytes to pass to zlib at once; it counts them with an int.
+/// Number of bytes to pass to zlib in one call; zlib counts bytes in an unsigned int.
 uInt as_much(std::size_t size) { return static_cast<uInt>(std::min(size, std::size_t{1} << 30)); }
 
-/// Passes both spans to zlib; end() removes the parts that zlib consumed and filled.
+/// Passes both spans to zlib; end() removes the consumed front of `in`, the filled one of `out`.
 class ZlibTurn {
   public:
     ZlibTurn(z_stream& stream, std::string_view& in, std::span<char>& out)
@@ -73,7 +73,7 @@ struct ZstdCompression final : Compressor::Stream {
         ZSTD_outBuffer given{out.data(), out.size(), 0};
         const std::size_t left = ZSTD_compressStream2(context.get(), &given, &taken,
                                                       last ? ZSTD_e_end : ZSTD_e_continue);
-        if (ZSTD_isError(left) != 0) throw std::bad_alloc();  // only memory can fail here
+        if (ZSTD_isError(left) != 0) throw std::bad_alloc();  // only an allocation can fail here
         in.remove_prefix(taken.pos);
         out = out.subspan(given.pos);
         return last ? left == 0 : in.empty() && !out.empty();

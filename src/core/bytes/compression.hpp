@@ -31,10 +31,10 @@ class Compressor {
     /// @param kind not Compression::none
     explicit Compressor(Compression kind);
 
-    /// Compresses bytes and passes on complete blocks. Returns false if the sink stopped.
+    /// Compresses bytes and passes complete blocks to the sink. Returns false if the sink stopped.
     bool add(std::string_view bytes, const Sink& sink);
 
-    /// Passes on the rest of the stream. Returns false if the sink stopped.
+    /// Passes the rest of the stream to the sink. Returns false if the sink stopped.
     bool finish(const Sink& sink);
 
     /// Codec of one compressed stream.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Files read at once, such as tables, matrices and pictures that options name; and restrictions
+// Reading of whole files, such as tables, matrices and pictures that options name; and restrictions
 // on which files may be opened.
 #pragma once
 

@@ -4,7 +4,7 @@
 //
 //     h_0 = 14695981039346656037,    h_i = (h_{i-1} xor byte_i) * 1099511628211  (mod 2^64).
 //
-// Beware  no protection against deliberate changes.
+// Beware  does not protect against deliberate changes.
 // Source  G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, The FNV non-cryptographic hash algorithm
 //         (FNV-1a).
 #pragma once

@@ -28,7 +28,7 @@ struct NpyHeader {
     std::vector<std::size_t> shape = {};  ///< extents; may be empty, or contain 0
     std::string shown_shape = {};         ///< as written in the file: "(1024, 2)"
     std::size_t start = 0;                ///< position of the dictionary, in bytes
-    std::size_t size = 0;                 ///< bytes before the numbers
+    std::size_t size = 0;                 ///< bytes before the array's numbers
     std::string source = {};              ///< name of the file, for messages
 
     /// Whether some extent is 0.
@@ -38,8 +38,7 @@ struct NpyHeader {
     [[noreturn]] void refuse(const std::string& what) const;
 };
 
-/// Parses a header of version 1 to 3; numbers are float64, float32 or integers of either byte
-/// order.
+/// Parses a header of version 1 to 3 with numbers float64, float32 or integer, of any byte order.
 /// @throws Error(input) "SOURCE: byte N: error; what is expected"
 NpyHeader read_npy_header(std::string_view bytes, const std::string& source);
 
@@ -47,8 +46,7 @@ NpyHeader read_npy_header(std::string_view bytes, const std::string& source);
 /// @throws Error(input) unless a file of `bytes` bytes ends exactly after these elements
 std::size_t npy_numbers(const NpyHeader& header, std::size_t bytes);
 
-/// Header of version 1 for an array in row-major order, padded with blanks to a multiple of 64
-/// bytes.
+/// Header of version 1 for an array in row-major order, padded to a multiple of 64 bytes.
 std::string npy_head(std::span<const std::uint64_t> shape, bool single);
 
 }  // namespace stipple

@@ -16,7 +16,7 @@ namespace stipple {
 /// @throws Error(io) if the disk is full
 class Spool {
   public:
-    /// Without a buffer, earlier bytes stay readable if a later write fails for lack of space.
+    /// Without a buffer, bytes already written stay readable if a later write finds the disk full.
     enum class Buffered { no, yes };
     explicit Spool(Buffered buffered = Buffered::yes);
     Spool(const Spool&) = delete;

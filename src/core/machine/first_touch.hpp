@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Allocation of much memory in steps, so that the run can be stopped meanwhile: some systems take a
-// second to provide 400 MB when they are first touched.
+// Allocation of much memory in steps, so that the run can be stopped between them: some systems
+// take a second to provide 400 MB of memory at its first use.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace stipple {
 
-/// Grows an empty container to n values of zero, in steps between which the run can be stopped.
+/// Grows a container to n values, adding zeros in steps between which the run can be stopped.
 /// @throws Error(cancelled)
 template <class Container>
 void grow(Container& values, std::size_t n, const RunContext& run) {
