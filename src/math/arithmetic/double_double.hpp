@@ -42,8 +42,7 @@ inline DoubleDouble exact_product(double a, double b) {
     return {product, std::fma(a, b, -product)};
 }
 
-/// Product of two doubles, exact, without fused multiply-adds: for loops compiled for all
-/// processors.
+/// Exact product of two doubles without fused multiply-adds, for loops on any processor.
 inline DoubleDouble split_product(double a, double b) {
     constexpr std::uint64_t upper = ~0x7ffffffULL;  // keeps 26 bits, so that products are exact
     const auto a_high = std::bit_cast<double>(std::bit_cast<std::uint64_t>(a) & upper);
@@ -66,7 +65,7 @@ inline DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
     return exact_sum(high.high, high.low + (a.high * b.low + a.low * b.high));
 }
 
-// Running sums that carry the rounding errors along, so that each sum is rounded about once.
+// Running sums with a second sum of all rounding errors, so that each result is rounded about once.
 //
 // Promise sums of numbers >= 0 never decrease, and do not change if a number is 0; relative error
 //         at most 2^-53 + n 2^-106. The same bits on every machine.

@@ -37,8 +37,8 @@ constexpr std::array<double, side_by_side> from_0() {
 
 double detail::wide_ratio(Wide numerator, Wide denominator) {
     if (numerator == 0) return 0;
-    // The quotient has 55 or 56 bits, two more than a double. The remainder becomes a sticky bit
-    // below them, so that only the conversion to double rounds.
+    // The quotient has 55 or 56 bits, at least two more than a double. The remainder becomes a
+    // sticky bit below them, so that only the conversion to double rounds.
     const int shift = bit_width(denominator) - bit_width(numerator) + 55;
     const Wide scaled = numerator << shift;
     const auto quotient = static_cast<std::uint64_t>(scaled / denominator);
@@ -64,7 +64,7 @@ void fill_ratios(Wide first, Wide step, Wide whole, std::size_t count, double* x
         for (std::size_t j = 0; j < count; ++j) x[j * stride] = ratio(first + step * j, whole);
         return;
     }
-    // All numbers here are integers of at most 2^53: only the division rounds.
+    // Numerators and denominator are integers of at most 2^53: only the division rounds.
     const auto number = [](Wide y) { return static_cast<double>(static_cast<std::uint64_t>(y)); };
     static constexpr auto counted = from_0();
     for (std::size_t at = 0; at < count; at += side_by_side)

@@ -28,7 +28,7 @@ inline double ratio(Wide numerator, Wide denominator) {
            static_cast<double>(static_cast<std::uint64_t>(denominator));
 }
 
-/// Sets x[j * stride] = ratio(first + j step, whole) for j < count; all must be below 1.
+/// Sets x[j * stride] = ratio(first + j step, whole) for j < count; all ratios must be below 1.
 void fill_ratios(Wide first, Wide step, Wide whole, std::size_t count, double* x,
                  std::size_t stride);
 

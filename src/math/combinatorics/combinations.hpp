@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Combinations of k of n things, c_1 < ... < c_k, numbered from 0 in order of their largest
-// element, then the second largest: {0,1}, {0,2}, {1,2}, {0,3}... So the number of a combination
-// does not depend on n.
+// Combinations of k of the integers 0, ..., n - 1, c_1 < ... < c_k, numbered from 0 in order of
+// their largest element, then the second largest: {0,1}, {0,2}, {1,2}, {0,3}... So the number of a
+// combination does not depend on n.
 //
 //     number of a combination  =  C(c_1, 1) + C(c_2, 2) + ... + C(c_k, k)
 //
@@ -18,7 +18,7 @@ namespace stipple {
 /// The chosen elements in increasing order.
 using Combination = std::vector<std::size_t>;
 
-/// C(n, k), or the largest 64-bit number if it overflows.
+/// C(n, k), or the largest 64-bit number if C(n, k) exceeds it.
 std::uint64_t binomial(std::uint64_t n, std::uint64_t k);
 
 /// Returns the combination of `size` elements with this number.

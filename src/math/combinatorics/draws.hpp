@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Uniform random numbers of a stream, returned one at a time in order of index and generated in
-// batches.
+// Uniform random numbers of a stream, returned one by one in order, generated in batches.
 #pragma once
 
 #include <array>
@@ -27,8 +26,8 @@ class DrawStream {
         return batch_[used_++];
     }
 
-    /// Uniform point in [low, high); coordinates that rounding puts on an upper face are drawn
-    /// again.
+    /// Writes a uniform point of the box to p; redraws coordinates that are rounded to an upper
+    /// face.
     void point(const Box& box, double* p) {
         for (std::size_t k = 0; k < box.dimension(); ++k) do
                 p[k] = box.low[k] + next() * box.extent(k);

@@ -13,7 +13,7 @@ namespace {
 using Cipher = Permutation::Cipher;
 
 constexpr std::size_t indices_at_once = 256;
-/// Maximum size of the table of a PermutationFamily.
+/// Maximum number of images in the table of a PermutationFamily.
 constexpr std::uint64_t most_entries = std::uint64_t{1} << 20;
 
 /// Cipher keys converted to the word type that the cipher works in.
@@ -50,8 +50,8 @@ STIPPLE_WIDE void encipher(Keys<Word> keys, Word* x, std::size_t count) {
     for (std::size_t j = 0; j < count; ++j) x[j] = keys(x[j]);
 }
 
-/// Computes images of first, first + 1, ... Images that are not below `size` are gathered and
-/// enciphered again, all together.
+/// Computes the images of `count` indices from `first` on. Images that are not below `size` are
+/// gathered and enciphered again, all together.
 template <class Word>
 void images(const Cipher& cipher, std::uint64_t size, std::uint64_t first, std::size_t count,
             double* out) {

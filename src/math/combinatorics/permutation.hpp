@@ -57,8 +57,7 @@ class Permutation {
     std::array<std::uint8_t, small> table_;  ///< all images, used if size_ <= small
 };
 
-/// Random permutations of {0, ..., size - 1}, one for each member 0, 1, ...; their keys are drawn
-/// from one stream.
+/// Random permutations of {0, ..., size - 1}, one for each member 0, 1, ..., with keys from `keys`.
 ///
 /// Cost    all images are tabulated if there are at most 2^20 of them. Otherwise every image sets
 ///         up its permutation again, in about 100 ns.

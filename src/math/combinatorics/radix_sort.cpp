@@ -12,7 +12,7 @@ namespace stipple {
 namespace {
 
 constexpr unsigned digit_bits = 11;
-constexpr unsigned digit_count = 6;  // 66 bits cover the 64 of a double
+constexpr unsigned digit_count = 6;  // 6 * 11 bits cover the 64 bits of a double
 constexpr std::size_t radix = std::size_t{1} << digit_bits;
 constexpr std::size_t stretch = std::size_t{1} << 20;  // items between two checks of the stop token
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Radix sort of doubles in [0, inf), 11 bits at a time: such doubles have the order of their bit
-// patterns.
+// Radix sort of doubles in [0, inf), which have the order of their bit patterns; 11 bits at a time.
 //
 // Cost    6 passes of O(n), skipping digits that all numbers share; 32 bytes a number.
 // Promise stable; checks for a stop every few milliseconds.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// SplitMix64: short streams of random numbers from a 64-bit key, if a block cipher for each number
-// is too slow. The first outputs for different keys differ.
+// SplitMix64: short streams of random numbers from a 64-bit key, for loops in which a block cipher
+// per number would be too slow. The first outputs for different keys differ.
 //
 // Beware  no substitute for Rng: keys must come from an Rng, not from seeds or indices.
 // Source  G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators",

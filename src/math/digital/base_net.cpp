@@ -26,14 +26,14 @@ class Fields {
     explicit Fields(std::uint64_t base)
         : base_(base), lift_(((std::uint64_t{1} << (Width - 1)) - base) * low_bits(Width, 1)) {}
 
-    /// Returns a + b modulo the base in every field. Adding `lift_` sets the top bit of fields with
-    /// sums of at least the base, from which the base is then subtracted.
+    /// Returns a + b modulo the base in every field. Adding `lift_` sets the top bit of each field
+    /// whose sum is at least the base; the base is then subtracted from these fields.
     [[nodiscard]] std::uint64_t sum(std::uint64_t a, std::uint64_t b) const {
         const std::uint64_t s = a + b;
         return s - (((s + lift_) >> (Width - 1)) & low_bits(Width, 1)) * base_;
     }
 
-    /// Integer with these digits; the digit in the lowest field is the most significant.
+    /// Integer whose digits are the fields of v; the lowest field is the most significant digit.
     [[nodiscard]] std::uint64_t number(std::uint64_t v) const {
         std::uint64_t power = base_;
         if constexpr (Width <= 4) join<4>(v, power);
@@ -67,8 +67,8 @@ struct Walk {
     const BaseNet::Words* steps;
     const std::uint8_t* ruler;
     const BaseNet::Words& scales;
-    std::size_t active;  ///< number of words that change
-    std::uint64_t rest;  ///< contribution of the words that do not change
+    std::size_t active;  ///< number of words that change within a block
+    std::uint64_t rest;  ///< contribution of the other words, constant within a block
     double whole;
 };
 

@@ -6,13 +6,13 @@
 //     x = sum_r y_r b^(-r-1)    where    y = C_k a  mod b,
 //
 // and C_k is its generating matrix. The step from i to i + 1 adds the sum of the columns 0, ..., t
-// of C_k to y, digit by digit modulo b, where t is the number of trailing digits b - 1 of i. This
-// sum comes from a short table. Digits are packed into words with at least four bits each, so that
-// all digits of a word are added and reduced at once. Joining neighbours, then pairs, and so on
-// converts a word to a number.
+// of C_k to y, digit by digit modulo b, where t is the number of trailing digits b - 1 of i. These
+// sums are tabulated for all t. Digits are packed into words with at least four bits each, so that
+// all digits of a word are added and reduced at once. A word becomes a number by joining
+// neighbouring digits, then neighbouring pairs of digits, and so on.
 //
 // Shape    prime b <= 65521; indices below b^columns; only the first digits_of(b) rows are used,
-//          because scrambles can recover that number of digits from a double.
+//          because scrambles cannot recover more digits from a double.
 // Cost     one word per coordinate and point for upper triangular matrices, up to four for others;
 //          about four nanoseconds per word. Memory: a few columns per coordinate.
 // Promise  y is exact, and x its nearest double; never 1.
@@ -57,7 +57,7 @@ class BaseNet {
     /// @param rows, columns size of every matrix; at least 1
     BaseNet(std::uint32_t base, std::size_t rows, std::size_t columns);
 
-    /// Adds a coordinate. `shift` is added to it digit by digit in all points; empty for none.
+    /// Adds a coordinate. The digits `shift`, if any, are added to its digits in all points.
     void append(const DigitMatrix& matrix, std::span<const std::uint32_t> shift = {});
 
     [[nodiscard]] std::size_t dimension() const { return coordinates_.size(); }
@@ -69,7 +69,7 @@ class BaseNet {
     struct Coordinate {
         Words origin{};  ///< digits of point 0
         std::vector<Words> columns;
-        std::vector<Words> steps;  ///< steps[t] = columns 0 + ... + t
+        std::vector<Words> steps;  ///< steps[t] = sum of columns 0, ..., t
         std::size_t active = 1;    ///< words that change within a block
     };
 
@@ -83,10 +83,10 @@ class BaseNet {
     std::size_t rows_;
     std::size_t columns_;
     unsigned width_ = 4;               ///< bits per digit
-    std::size_t words_ = 1;            ///< words in use
+    std::size_t words_ = 1;            ///< number of words per coordinate
     Words scales_{};                   ///< weight of each word's number, in units of b^-rows
     double whole_ = 1;                 ///< b^rows
-    std::uint64_t block_ = 1;          ///< number of indices that differ only in their low digits
+    std::uint64_t block_ = 1;          ///< number of consecutive indices with the same high digits
     std::size_t low_digits_ = 0;       ///< b^low_digits = block
     std::vector<std::uint8_t> ruler_;  ///< trailing zeros of 1, ..., block - 1 in base b
     std::vector<Coordinate> coordinates_;

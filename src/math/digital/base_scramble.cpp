@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t lanes = 256;
 
-/// Limit of b^K for digits taken from doubles: the roundings of x and of x b^K together stay below
-/// half a unit.
+/// Upper limit of b^K for which K digits can be recovered from a double: up to it, the rounding
+/// errors of x and of x b^K together stay below 1/2.
 constexpr std::uint64_t digits_limit = std::uint64_t{1} << 50;
 
 /// A bijective 64-bit hash with two keys (constants: splitmix64, S. Vigna).
@@ -28,7 +28,7 @@ inline std::uint64_t mixed(std::uint64_t x, const BaseOwen::Keys& keys) {
     return x ^ (x >> 32);
 }
 
-/// Hash of a digit after a prefix; `low` and `high` encode the prefix and its depth.
+/// Hash of a digit that follows a prefix; `low` and `high` encode the prefix and its length.
 inline std::uint32_t digit_hash(std::uint32_t digit, std::uint32_t low, std::uint32_t high) {
     std::uint32_t x = low + digit * 0x9e3779b9U;
     x ^= x >> 16;
@@ -38,13 +38,13 @@ inline std::uint32_t digit_hash(std::uint32_t digit, std::uint32_t low, std::uin
     return x ^ (x >> 16);
 }
 
-/// Prefixes at one depth, encoded for digit_hash.
+/// Prefixes of one length, encoded for digit_hash().
 struct Prefixes {
     std::uint32_t low[lanes];
     std::uint32_t high[lanes];
 };
 
-/// Sets rank[i] to the number of nonzero digits before `digit` in the order after prefix i.
+/// Sets rank[i] to the number of nonzero digits whose hash after prefix i precedes that of `digit`.
 STIPPLE_WIDE void rank_digits(const Prefixes& at, std::size_t count, std::uint32_t base,
                               std::uint32_t digit, std::uint32_t* rank) {
     std::uint32_t own[lanes];
@@ -60,7 +60,7 @@ STIPPLE_WIDE void rank_digits(const Prefixes& at, std::size_t count, std::uint32
             rank[i] += digit_hash(other, at.low[i], at.high[i]) < own[i] ? 1U : 0U;
 }
 
-/// Digit k of the uniform number `random` 2^-64, given b^k modulo 2^64.
+/// Digit k, from 0, of the number `random` 2^-64 in base b, given `power` = b^k modulo 2^64.
 inline std::uint64_t uniform_digit(std::uint64_t random, std::uint64_t power, std::uint64_t base) {
     return static_cast<std::uint64_t>((Wide{random * power} * base) >> 64);
 }
@@ -71,7 +71,7 @@ std::size_t length(std::uint64_t q, std::uint64_t base) {
     return digits;
 }
 
-/// Encodes a prefix for digit_hash, from its hash and depth.
+/// Encodes a prefix for digit_hash(), from its hash `random` and its length `depth`.
 inline void split(std::uint64_t random, std::size_t depth, std::uint64_t key, std::uint32_t& low,
                   std::uint32_t& high) {
     const std::uint64_t x = random ^ (key * (2 * depth + 1));
@@ -79,8 +79,8 @@ inline void split(std::uint64_t random, std::size_t depth, std::uint64_t key, st
     high = static_cast<std::uint32_t>(x >> 32);
 }
 
-/// Returns (whole + random) / power, inside (whole, whole + 1) / power by a margin larger than the
-/// rounding error.
+/// Returns (whole + u) / power for a u in (0, 1) taken from `random`. The result is in the interior
+/// of the interval from whole / power to (whole + 1) / power, by more than its rounding error.
 inline double inside(std::uint64_t whole, std::uint64_t random, Wide power) {
     if (power > digits_limit) return ratio(2 * Wide{whole} + 1, 2 * power);
     const auto length = static_cast<double>(static_cast<std::uint64_t>(power));
@@ -116,7 +116,7 @@ Wide power(std::uint64_t base, std::size_t exponent) {
 
 using Digits = std::array<std::uint64_t, 64>;
 
-/// The first `count` digits of q.
+/// The lowest `count` digits of q, the least significant first.
 Digits first_digits(std::uint64_t q, std::uint64_t base, std::size_t count) {
     Digits digits{};
     for (std::size_t j = 0; j < count; ++j, q /= base) digits[j] = q % base;
@@ -191,14 +191,14 @@ BaseOwen::BaseOwen(std::uint64_t seed, std::size_t coordinate, std::uint32_t bas
     images_ = first_images();
     for (std::size_t depth = 1; depth < low_digits_; ++depth) append_digits(depth);
     for (std::uint64_t q = 0; q < block_; ++q) {
-        // A number with fewer than t digits has a wider interval, and its random tail fills it.
+        // A q with L < t digits has an interval of length b^-L, in which its image is random.
         const std::uint64_t image = images_[q] / powers_[low_digits_ - lengths_[q]];
         short_.push_back(inside(image, mixed(q, keys_), power(base_, lengths_[q])));
     }
 }
 
-/// Images of all first digits. Sorts the whole permutation, because computing it digit by digit
-/// would be quadratic in the base.
+/// Images of all values of the first digit. Sorts the whole permutation, because computing it digit
+/// by digit would be quadratic in the base.
 std::vector<std::uint64_t> BaseOwen::first_images() const {
     std::uint32_t low = 0;
     std::uint32_t high = 0;
@@ -232,15 +232,15 @@ void BaseOwen::fill_binary(std::uint64_t first, std::size_t count, double* out,
     }
 }
 
-/// Consecutive numbers that differ only in the t low digits.
+/// Consecutive integers that differ only in the t low digits.
 struct BaseOwen::Stretch {
-    std::uint64_t low;  ///< low digits of the first number
+    std::uint64_t low;  ///< t low digits of the first integer
     std::uint64_t high;
-    std::size_t count;  ///< how many numbers, at most `lanes`
+    std::size_t count;  ///< number of integers, at most `lanes`
 };
 
-/// Appends to each image of a stretch the image of `digit` at position `depth`. The digits before
-/// `digit` are the low digits of the number, followed by those of `above`.
+/// Appends to each image of a stretch the image of `digit` at position `depth`. The prefix of
+/// `digit` consists of the low digits of the integer, followed by the digits of `above`.
 void BaseOwen::append_digit(const Stretch& stretch, std::uint64_t above, std::size_t depth,
                             std::uint32_t digit, std::uint64_t* image) const {
     if (stretch.count == 0) return;
@@ -264,7 +264,7 @@ void BaseOwen::append_digit(const Stretch& stretch, std::uint64_t above, std::si
     }
 }
 
-/// Extends the images of `depth` digits by another digit.
+/// Extends the table images_ from all prefixes of `depth` digits to those of depth + 1 digits.
 void BaseOwen::append_digits(std::size_t depth) {
     const std::size_t prefixes = images_.size();
     std::vector<std::uint64_t> longer;

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
 //
-// Scrambles of digits in any base. A coordinate is given by its digits after the point, stored as
-// those of an integer q with the least significant first: q represents its radical inverse.
+// Scrambles of digits in any base b. A coordinate is given as the integer q whose radical inverse
+// it is: the least significant digit of q is the first digit x_1 after the point.
 //
 //     digital shift   y_j = x_j + s_j                               s_j random digits
 //     matrix          y_j = sum_(i <= j) l_ji x_i + s_j             l random, lower triangular,
 //                                                                   units on the diagonal (b prime)
 //     nested uniform  y_j = pi(x_j), a random permutation for each prefix x_1 ... x_(j-1)
 //
-// modulo b. A nested permutation is built from a random pi(0): the other digits follow it,
-// cyclically, in the order of hashes of prefix and digit. All digits after the last one of q are
-// zeros, so their images are the digits of a single uniform number, a hash of q. In this way, all
-// of the infinitely many digits are scrambled.
+// modulo b. A nested permutation has a random pi(0); the images of the other digits follow pi(0)
+// cyclically, in the order of the hashes of prefix and digit. All digits after the last one of q
+// are zeros, so their images are the digits of a single uniform number, a hash of q. In this way,
+// all of the infinitely many digits are scrambled.
 //
 // Shape    q below 2^53; base in [2, 65536].
-// Cost     nested scrambling takes O(b) per digit, eight at a time, after O(b log b) for setup.
+// Cost     nested scrambling: setup O(b log b), then O(b) per digit, eight coordinates at a time.
 // Promise  shift and matrix give integer multiples of b^-K, correctly rounded, with K =
 //          digits_of(b). A nested image is in the interior of its interval of length b^-L, where L
-//          is the number of digits of q. In base 2 it equals that of BinaryOwen. All results are
+//          is the number of digits of q. In base 2 it is the image by BinaryOwen. All results are
 //          below 1.
 // Source   as math/digital/binary_scramble.hpp
 #pragma once
@@ -35,8 +35,8 @@ namespace stipple {
 /// The largest K such that every multiple of base^-K can be recovered from its rounded double.
 std::size_t digits_of(std::uint32_t base);
 
-/// Integer with the reversed digits of the multiple of base^-K nearest to x in [0, 1]. For the
-/// radical inverse of q < base^K it is q.
+/// The integer q < base^K whose radical inverse is the multiple of base^-K nearest to x in [0, 1],
+/// but below 1; K = digits_of(base).
 std::uint64_t reversed_digits(double x, std::uint32_t base);
 
 class BaseShift {
@@ -57,8 +57,7 @@ class BaseMatrix {
     BaseMatrix(std::uint64_t seed, std::size_t coordinate, std::uint32_t base);
     [[nodiscard]] double of(std::uint64_t reversed) const;
 
-    /// Coefficient of input digit `column` in output digit `row`, for column <= row <
-    /// digits_of(base).
+    /// Coefficient of input digit `column` in output digit `row`; column <= row < digits_of(base).
     [[nodiscard]] std::uint32_t entry(std::size_t row, std::size_t column) const {
         return rows_[row * shift_.size() + column];
     }
@@ -81,7 +80,7 @@ class BaseOwen {
     /// Sets out[j * stride] = of(first + j) for j < count, much faster than one by one.
     void fill(std::uint64_t first, std::size_t count, double* out, std::size_t stride) const;
 
-    /// Keys of the hash of a prefix.
+    /// Keys of the hashes of prefixes and digits.
     struct Keys {
         std::uint64_t before;
         std::uint64_t between;

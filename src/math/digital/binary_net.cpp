@@ -11,10 +11,10 @@
 namespace stipple {
 namespace {
 
-/// Size of the table of low digits' sums: it fits the first-level cache together with the result.
+/// Maximum size of the table low_: table and result together fit the first-level cache.
 constexpr std::size_t table_words = 2048;
 
-/// Minimum length of runs of words, so that vectors have little or no remainder.
+/// Minimum number of words in an inner loop, so that vectors leave little or no remainder.
 constexpr std::size_t run_words = 64;
 
 /// Sets out[j] = low[j] xor high[j mod period], as a double in [0, 1) or as a fraction.
@@ -70,8 +70,8 @@ void BinaryNet::fill_rows(std::uint64_t first, std::span<Number> rows) const {
     std::vector<std::uint64_t> high(period_ * d);
     std::ranges::copy(shift_, high.begin());
 
-    // The step from a high part h to the next adds the carry for the trailing ones of h. So the sum
-    // for h consists of the carries in the Gray code of h.
+    // The step from high digits h to h + 1 adds row j of carries_ for j trailing ones of h. So the
+    // sum for h consists of the rows j at which the Gray code of h has a 1.
     std::uint64_t h = first >> low_digits_;
     for (std::uint64_t gray = h ^ (h >> 1); gray != 0; gray &= gray - 1) {
         const std::uint64_t* step = carry(std::countr_zero(gray));

@@ -8,9 +8,9 @@
 // here: the top bit is the first digit after the point.
 //
 // Shape    up to 64 columns; 2^columns points.
-// Cost     a load, an exclusive or and a conversion per coordinate. Vectors run across points and
-//          coordinates alike, because rows are contiguous in the table of low digits' sums and in
-//          the result, for any dimension. 3 G coordinates per second on one core.
+// Cost     a load, an exclusive or and a conversion per coordinate. Vector instructions work across
+//          the ends of rows, for any dimension, because rows are contiguous both in the result and
+//          in the table of the low digits' sums. 3 G coordinates per second on one core.
 // Promise  a coordinate has exactly the first 53 digits of its fraction; the others are truncated.
 #pragma once
 
@@ -46,7 +46,7 @@ class BinaryNet {
     void fill(std::uint64_t first, std::span<double> rows) const;
     void fill(std::uint64_t first, std::span<std::uint64_t> rows) const;
 
-    /// Coordinate k of point i as a fraction. For rows one by one; fill() costs less for many.
+    /// Coordinate k of point i as a fraction. For single points; fill() is faster for many.
     [[nodiscard]] std::uint64_t word(std::uint64_t i, std::size_t k) const {
         const std::uint64_t h = i >> low_digits_;
         const std::uint64_t row = i & ((std::uint64_t{1} << low_digits_) - 1);
@@ -66,7 +66,7 @@ class BinaryNet {
     std::size_t dimension_;
     int low_digits_ = 0;
     std::size_t period_ = 1;          ///< copies of the high digits' sum, to fill whole vectors
-    std::vector<std::uint64_t> low_;  ///< sums of the low digits' columns, row by row
+    std::vector<std::uint64_t> low_;  ///< sums for all values of the low digits, row by row
     /// Row j: sum of the columns of the first j + 1 high digits.
     std::vector<std::uint64_t> carries_;
     std::vector<std::uint64_t> shift_;

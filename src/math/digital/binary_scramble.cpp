@@ -10,10 +10,10 @@ namespace stipple {
 namespace {
 
 constexpr std::size_t block_points = 256;
-constexpr int group_digits = 5;  // digits per group, whose prefixes need 31 random bits
-constexpr int upper_groups = 6;  // groups in the upper part, whose prefixes fit 32 bits
+constexpr int group_digits = 5;  // digits per group; a group needs 31 random bits
+constexpr int upper_groups = 6;  // groups in the upper part; its 30 digits fit 32 bits
 constexpr int lower_groups = 5;  // groups in the lower part; 55 digits in all
-constexpr std::size_t all_groups = upper_groups + lower_groups;  // index of the upper part's keys
+constexpr std::size_t all_groups = upper_groups + lower_groups;  // also the upper part's key index
 constexpr int upper_bits = upper_groups * group_digits;
 constexpr int lower_bits = lower_groups * group_digits;
 constexpr std::uint32_t group_mask = (1U << group_digits) - 1;
@@ -37,16 +37,17 @@ inline std::uint32_t flips(std::uint32_t random, std::uint32_t group) {
     return flip;
 }
 
-/// Lowest bit of a group in its part; the upper part has thirty digits, the lower one 25.
+/// Position of the lowest bit of group g within the upper or lower part of a number; the upper part
+/// has 30 digits, the lower one 25.
 constexpr std::uint32_t shift_of(std::size_t g) {
     const int after = g < upper_groups ? upper_groups - 1 - static_cast<int>(g)
                                        : static_cast<int>(all_groups) - 1 - static_cast<int>(g);
     return static_cast<std::uint32_t>(group_digits * after);
 }
 
-/// Flips of group g, in its place in `part`; `above` is the hash of the upper part. Prefixes of up
-/// to 25 digits have distinct hashes. Longer ones with equal hashes in one group differ in the
-/// next, because its factor does.
+/// Flips for the digits of group g, shifted to the group's bits in `part`; `above` is the hash of
+/// the upper part. Prefixes of up to 25 digits have distinct hashes. Longer prefixes whose hashes
+/// coincide for one group differ in the next, because its factor does.
 inline std::uint32_t group_flips(const BinaryOwen::Keys& keys, std::size_t g, std::uint32_t shift,
                                  std::uint32_t part, std::uint32_t above) {
     const std::uint32_t prefix = part >> shift >> group_digits;
@@ -92,7 +93,7 @@ STIPPLE_WIDE void scramble(const BinaryOwen::Keys& keys, std::uint64_t* x, std::
     for (std::size_t i = 0; i < count; ++i) x[i] = joined(high[i], low[i]);
 }
 
-/// All groups of one number at once.
+/// Scrambles one number, with all groups computed at once.
 STIPPLE_WIDE std::uint64_t scrambled(const BinaryOwen::Keys& keys, std::uint64_t x) {
     constexpr std::size_t groups = 12;
     static constexpr std::array<std::uint32_t, groups> shifts{

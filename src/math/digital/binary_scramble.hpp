@@ -45,14 +45,14 @@ class BinaryOwen {
     /// Scrambles fractions in place; results have 53 digits.
     void apply(std::span<std::uint64_t> fractions) const;
 
-    /// The scrambled fraction.
+    /// Scrambles one fraction.
     [[nodiscard]] std::uint64_t of(std::uint64_t fraction) const;
 
     /// Keys of the hash, two for each group of five digits and two for the upper part as a whole.
     struct Keys {
         std::array<std::uint32_t, 12> before;
         std::array<std::uint32_t, 12> between;
-        std::array<std::uint32_t, 12> factor;  ///< of the upper part's hash; 0 in the upper part
+        std::array<std::uint32_t, 12> factor;  ///< of the upper part's hash; 0 for upper groups
     };
 
   private:

@@ -10,7 +10,7 @@
 namespace stipple {
 namespace {
 
-/// Random permutation for a position, by Fisher and Yates.
+/// Random permutation of the digits at a position, by Fisher and Yates.
 std::vector<std::uint16_t> random_permutation(std::uint64_t base, std::size_t position,
                                               const Rng& numbers) {
     std::vector<std::uint16_t> images(base);
@@ -55,15 +55,15 @@ PermutedInverse::PermutedInverse(std::uint32_t base, const Rng& numbers)
         const auto images = random_permutation(base, position++, numbers);
         permuted_.insert(permuted_.end(), images.begin(), images.end());
     }
-    // After the last position that an index can reach, all random digits form a uniform number.
+    // The random digits after the last position of any index below 2^53 form a uniform number.
     zeros_.push_back(numbers.uniform(position * base_));
     for (std::size_t at = permuted_.size(); at > 0; at -= base_)
         zeros_.push_back((permuted_[at - base_] + zeros_.back()) / static_cast<double>(base_));
     std::ranges::reverse(zeros_);
 }
 
-/// Fraction formed by the images of the digits above the t low ones, in units of b^-t; at least
-/// margin_ from 0 and 1.
+/// Fraction formed by the images of `high`, the digits above the t low ones, in units of b^-t; at
+/// least margin_ from 0 and 1.
 double PermutedInverse::behind(std::uint64_t high) const {
     Wide digits = 0;
     Wide power = 1;
@@ -72,7 +72,7 @@ double PermutedInverse::behind(std::uint64_t high) const {
         digits = digits * base_ + permuted_[position * base_ + high % base_];
         power *= base_;
     }
-    // Both are below 2^53: power <= b * high, which is at most the index, because block_ >= b.
+    // `digits` and `power` are below 2^53: power <= b * high <= the index, because block_ >= b.
     const auto whole = static_cast<double>(static_cast<std::uint64_t>(digits));
     const double fraction =
         (whole + zeros_[position]) / static_cast<double>(static_cast<std::uint64_t>(power));

@@ -10,8 +10,7 @@
 // the middle.
 //
 // Random: an independent permutation for each position, including those of the infinitely many
-// leading zeros of i. Positions that are 0 for all indices below 2^53 together give a uniform
-// number.
+// leading zeros of i. The positions that are 0 for all indices below 2^53 give one uniform number.
 //
 // Shape    i in [0, 2^53), b in [2, 65536].
 // Promise  random: within 2^-52 of the sum above, below 1, and in the interior of the interval
@@ -34,7 +33,7 @@ std::vector<std::uint32_t> faure_permutation(std::uint32_t base);
 /// Radical inverses with random digit permutations, one for each position.
 class PermutedInverse {
   public:
-    /// @param numbers source of randomness; uses numbers below 64 base
+    /// @param numbers random numbers, of which those with an index below 64 * base are used
     PermutedInverse(std::uint32_t base, const Rng& numbers);
 
     [[nodiscard]] double of(std::uint64_t index) const;

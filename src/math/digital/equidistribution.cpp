@@ -13,8 +13,8 @@
 namespace stipple::equidistribution {
 namespace {
 
-/// Index of the interval that contains x. As `parts` is below 2^31, the rounded product is off by
-/// less than one.
+/// Index of the interval that contains x, of `parts` equal ones of [0, 1]. As `parts` is below
+/// 2^31, the rounded product x * parts is off by less than one.
 std::int32_t cell_of(double x, double parts) {
     double cell = std::floor(x * parts);
     if (cell / parts > x)
@@ -36,7 +36,7 @@ std::int32_t digit_sum(std::int32_t a, std::int32_t c, std::uint32_t f, std::uin
     return static_cast<std::int32_t>(sum);
 }
 
-/// Differences of point b^j from point 0, for all j, coordinate by coordinate.
+/// Digits of point b^j minus those of point 0, modulo b, for all j; coordinate by coordinate.
 std::vector<std::int32_t> steps_of(const Net& net) {
     std::vector<std::int32_t> steps;
     for (std::size_t k = 0; k < net.dimension; ++k) {
@@ -47,8 +47,8 @@ std::vector<std::int32_t> steps_of(const Net& net) {
     return steps;
 }
 
-/// True if each point equals the point whose index has the lowest nonzero digit decreased by 1,
-/// plus the step of that digit.
+/// True if each point i > 0 equals point i - b^j plus step j, where j is the position of the lowest
+/// nonzero digit of i.
 bool is_linear(const Net& net, std::span<const std::int32_t> steps, const RunContext& run) {
     for (std::size_t i = 1; i < net.count; ++i) {
         if (i % (1 + 65536 / net.dimension) == 0) run.check_stop();
@@ -64,8 +64,9 @@ bool is_linear(const Net& net, std::span<const std::int32_t> steps, const RunCon
     return true;
 }
 
-/// Sets to[i] = from[i] b^q + the first q digits of cells[i], with scale b^q and rest b^(m-q).
-/// Adding half a cell keeps quotients further from integers than their rounding error.
+/// Sets to[i] to from[i] b^q plus the integer formed by the first q of the m digits of cells[i],
+/// where scale = b^q and rest = b^(m-q). Adding 0.5 keeps each quotient further from an integer
+/// than its rounding error.
 STIPPLE_WIDE void append_digits(const std::int32_t* from, const std::int32_t* cells,
                                 std::size_t count, std::int32_t scale, double rest,
                                 std::int32_t* to) {
@@ -108,7 +109,7 @@ class CountingProbe final : public Probe {
   private:
     static constexpr std::size_t block = 4096;
 
-    /// Computes the boxes of some points after a cut by digits of a coordinate.
+    /// Computes the boxes of a block of points after dividing by digits of a coordinate.
     void append(std::size_t depth, std::size_t coordinate, std::size_t digits, std::size_t first,
                 std::int32_t* to) const {
         run_.check_stop();
@@ -121,11 +122,11 @@ class CountingProbe final : public Probe {
     const Net& net_;
     const RunContext& run_;
     std::vector<std::vector<std::int32_t>> boxes_;  ///< box of each point, by number of cuts
-    std::vector<std::size_t> used_;                 ///< digits of each cut
+    std::vector<std::size_t> used_;                 ///< number of digits of each cut
     std::vector<std::uint32_t> counts_;
 };
 
-/// Tests linear independence. Rows are in echelon form with pivots 1.
+/// Tests the linear independence of matrix rows, kept in echelon form with pivots 1.
 class RankProbe final : public Probe {
   public:
     RankProbe(const Matrices& matrices, const RunContext& run) : matrices_(matrices), run_(run) {}
@@ -191,7 +192,7 @@ class RankProbe final : public Probe {
     const RunContext& run_;
     std::vector<std::uint32_t> rows_;
     std::vector<std::size_t> pivots_;
-    std::vector<std::size_t> ends_;  ///< number of rows after each cut
+    std::vector<std::size_t> ends_;  ///< number of rows in rows_ after each cut
 };
 
 }  // namespace

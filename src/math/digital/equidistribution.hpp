@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Tests if b^m points are equidistributed over elementary boxes. Giving q_k digits to coordinate k
-// divides the cube into b^(q_1 + ... + q_d) boxes with sides b^-q_k, each of which should contain
-// the same number of points. Two exact methods:
+// Tests if n = b^m points are equidistributed over elementary boxes. A division by q_k digits of
+// each coordinate k consists of b^(q_1 + ... + q_d) boxes with sides b^-q_k, which should all
+// contain the same number of points. Two exact methods:
 //
 //     counting   n steps per division
-//     rank       if the points are a digital net: rows 1..q_k of all generating matrices C_k
-//                must be linearly independent over F_b; points are not needed
+//     rank       for digital nets: rows 1..q_k of the generating matrices C_k of all coordinates
+//                together must be linearly independent over F_b; points are not needed
 #pragma once
 
 #include <cstddef>
@@ -34,8 +34,9 @@ struct Net {
     }
 };
 
-/// Truncates points to a net. The edges j / b^m of intervals are rounded to doubles; a coordinate
-/// is in the interval with the last edge that does not exceed it, and 1 is in the last interval.
+/// Truncates the coordinates of points to their first m digits. The edges j / b^m of intervals are
+/// rounded to doubles; a coordinate is in the interval with the last edge that does not exceed it,
+/// and 1 is in the last interval.
 Net net_of(const PointSet& points, std::uint32_t base, std::size_t digits, const RunContext& run);
 
 /// Generating matrices: row(k, l)[j] is digit l + 1 of coordinate k of point b^j, minus that of
@@ -67,12 +68,12 @@ class Probe {
     /// previous cuts, all boxes must hold the same number of points.
     virtual void cut(std::size_t depth, std::size_t coordinate, std::size_t digits) = 0;
 
-    /// True if all boxes hold the same number of points with this cut as the last one.
+    /// True if all boxes hold the same number of points after the previous cuts and this one.
     virtual bool equal(std::size_t depth, std::size_t coordinate, std::size_t digits) = 0;
 };
 
-/// Uses the ranks of the matrices if they are given, otherwise counts points. Keeps references to
-/// all arguments.
+/// Uses the ranks of the matrices if given, otherwise counts points. Keeps references to all
+/// arguments.
 std::unique_ptr<Probe> probe_of(const Net& net, const std::optional<Matrices>& matrices,
                                 const RunContext& run);
 

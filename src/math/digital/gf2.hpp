@@ -73,7 +73,7 @@ constexpr bool is_irreducible(std::uint64_t p) {
     return true;
 }
 
-/// The irreducible polynomial of degree m >= 1 with the smallest number.
+/// The irreducible polynomial of degree m >= 1 that is smallest as an integer.
 constexpr std::uint64_t smallest_irreducible(int m) {
     std::uint64_t p = std::uint64_t{1} << m;
     while (!is_irreducible(p)) ++p;

@@ -16,8 +16,8 @@ double Drand48::next() {
 }
 
 void Drand48::discard(std::uint64_t count) {
-    // One step is x -> a x + c, two are x -> a (a x + c) + c, and so on by squaring. Overflow
-    // modulo 2^64 does not matter modulo 2^48.
+    // One step is x -> a x + c, two are x -> a (a x + c) + c, and so on by squaring. Reduction
+    // modulo 2^64 by overflow does not change the result modulo 2^48.
     std::uint64_t factor = drand48_factor;
     std::uint64_t term = drand48_term;
     for (; count > 0; count /= 2) {

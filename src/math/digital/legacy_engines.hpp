@@ -91,8 +91,7 @@ class Ranmar {
     std::uint32_t arithmetic_ = 362436;
 };
 
-/// An engine of the standard library; returns the 53 high bits of its numbers, or all bits if they
-/// have fewer.
+/// An engine of the standard library; returns the 53 high bits of its numbers, or all if fewer.
 template <class Engine, std::uint64_t most>
 class StandardEngine {
   public:

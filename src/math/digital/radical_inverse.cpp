@@ -10,7 +10,7 @@
 namespace stipple {
 namespace {
 
-/// The reversed digits of an index as an integer, and base^digits.
+/// The integer with the digits of an index reversed, and base^k for an index of k digits.
 struct Reversed {
     Wide digits = 0;
     Wide power = 1;
@@ -27,8 +27,8 @@ Reversed reversed(std::uint64_t index, std::uint64_t base,
     return out;
 }
 
-/// Combines low digits with common high ones: sets numbers (low * high.power + high.digits) /
-/// (block * high.power).
+/// Combines reversed low digits with reversed high digits that all indices share: sets out[j *
+/// stride] to (low[j] * high.power + high.digits) / (block * high.power).
 void join(std::span<const double> low, const Reversed& high, std::uint64_t block, double* out,
           std::size_t stride) {
     const Wide denominator = high.power * block;
@@ -39,7 +39,7 @@ void join(std::span<const double> low, const Reversed& high, std::uint64_t block
         }
         return;
     }
-    // All numbers here are integers of at most 2^53: only the division rounds.
+    // Numerators and denominator are integers of at most 2^53: only the division rounds.
     const auto number = [](Wide x) { return static_cast<double>(static_cast<std::uint64_t>(x)); };
     fill_quotients(low, number(high.power), number(high.digits), number(denominator), out, stride);
 }
@@ -54,14 +54,15 @@ RadicalInverse::RadicalInverse(std::uint32_t base, std::vector<std::uint32_t> pe
     last_power_ = exact_limit / block_;
     if (block_ == base && permutation_.empty()) return;
     for (std::uint64_t i = 0; i < block_; ++i) {
-        // A digit 1 above the block keeps the leading zeros of i; the division removes it again.
+        // Adding b^t puts a digit before the leading zeros of i, so that these are reversed, too;
+        // the division removes this digit.
         const Reversed low = reversed(i + block_, base, permutation_);
         reversed_.push_back(static_cast<double>(static_cast<std::uint64_t>(low.digits / base)));
     }
 }
 
 double RadicalInverse::of(std::uint64_t index) const {
-    std::uint64_t digits = 0;  // as reversed(), a block of digits at a time
+    std::uint64_t digits = 0;  // computed as in reversed(), but t digits at a time
     std::uint64_t power = 1;
     std::uint64_t rest = index;
     for (; rest > 0 && power <= last_power_; rest /= block_, power *= block_) {

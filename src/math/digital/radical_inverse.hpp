@@ -18,8 +18,8 @@
 
 namespace stipple {
 
-/// Maximum size of tables for the images of low digits: 8 KiB, so that several fit the first-level
-/// cache.
+/// Maximum number of entries in a table of images of low digits: 8 KiB, so that several tables fit
+/// the first-level cache.
 constexpr std::uint64_t largest_digit_table = 1024;
 
 /// Radical inverses. For consecutive indices the reversed low digits come from a table, so that
@@ -40,7 +40,7 @@ class RadicalInverse {
   private:
     std::uint64_t base_;
     std::uint64_t block_;           ///< b^t, the number of values of the t low digits
-    std::uint64_t last_power_ = 0;  ///< largest power of the base that a block's still fits on
+    std::uint64_t last_power_ = 0;  ///< upper limit of b^j with b^j b^t <= 2^53
     std::vector<double> reversed_;  ///< reversed low digits; empty if t = 1 without permutation
     std::vector<std::uint32_t> permutation_;  ///< permutation of the digits; empty for none
 };

@@ -12,8 +12,9 @@ namespace stipple {
 namespace {
 
 /// The double nearest to the middle of [low / parts, high / parts). Strata are at least 2^-53 wide,
-/// the maximum distance of doubles, so that this double is inside. The exception is 2^53 parts:
-/// there the middle is a tie, which may round to the upper edge, but the lower edge is a double.
+/// the maximum distance between neighbouring doubles below 1, so that this double is inside. The
+/// exception is 2^53 parts: there the middle is a tie, which may round to the upper edge, but the
+/// lower edge is a double.
 double safe_point(std::uint64_t low, std::uint64_t high, std::uint64_t parts) {
     const auto n = static_cast<double>(parts);
     const double middle = ratio(Wide{low} + high, Wide{parts} * 2);
@@ -21,14 +22,13 @@ double safe_point(std::uint64_t low, std::uint64_t high, std::uint64_t parts) {
     return below_edge ? middle : static_cast<double>(low) / n;
 }
 
-/// True if x is strictly between the stratum's edges, in floating-point and hence in exact
-/// arithmetic.
+/// True if x is strictly between the stratum's edges in doubles, and hence in exact arithmetic.
 inline bool holds(double low, double width, double parts, double x) {
     const double scaled = x * parts;
     return (scaled > low) & (scaled < low + width);
 }
 
-/// Moves contiguous numbers into their strata; returns true if all are inside.
+/// Moves each x[j] from [0, 1) into stratum j; returns true if all are strictly inside.
 STIPPLE_WIDE bool place(const double* low, double width, double parts, std::size_t count,
                         double* x) {
     std::int64_t outside = 0;
@@ -44,7 +44,7 @@ double safe_point_of(const Strata& strata, std::size_t j) {
     return safe_point(low, low + strata.width, strata.parts);
 }
 
-/// Moves contiguous numbers into their strata.
+/// Moves each x[j] from [0, 1) into stratum j.
 void place_all(const Strata& strata, double* x) {
     const auto width = static_cast<double>(strata.width);
     const auto parts = static_cast<double>(strata.parts);
@@ -68,7 +68,7 @@ void place_in_strata(Strata strata, double* x, std::size_t stride) {
 }
 
 void place_in_middles(const Strata& strata, double* x, std::size_t stride) {
-    // Half a stratum exceeds all rounding errors, unless there are very many strata.
+    // Half the width of a stratum exceeds all rounding errors, except with more than 2^50 parts.
     const bool roomy = strata.parts <= std::uint64_t{1} << 50;
     if (roomy)
         return fill_quotients(strata.low, 1, static_cast<double>(strata.width) / 2,

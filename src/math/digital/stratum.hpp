@@ -4,10 +4,10 @@
 //
 //     x = (low + width u) / parts,    u in [0, 1),    in    [low / parts, (low + width) / parts).
 //
-// Promise  the point is in its half-open stratum in exact arithmetic. The same holds for floor(x *
-//          parts) in floating-point arithmetic, if the stratum contains a double for which this is
-//          possible. A point that rounding would move to an edge is moved to the middle of its
-//          stratum; the probability of that is about low * 2^-53.
+// Promise  the point is in its half-open stratum in exact arithmetic. Computed in doubles, floor(x
+//          * parts) is in [low, low + width), too, if this holds for any double x of the stratum. A
+//          point that rounding would move to an edge is moved to the middle of its stratum; the
+//          probability of that is about low * 2^-53.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ namespace stipple {
 
 /// Strata along one coordinate, all of the same width.
 struct Strata {
-    std::span<const double> low;  ///< lower ends, integers
+    std::span<const double> low;  ///< lower ends in units of 1 / parts
     std::uint64_t width = 1;
     std::uint64_t parts = 1;  ///< low + width <= parts <= 2^53
 };

@@ -51,7 +51,7 @@ std::vector<std::uint32_t> in_no_box(const PointSet& points, Family family) {
     return found;
 }
 
-/// Appends the distinct values of sorted items to `values`; returns the index in it for every item.
+/// Appends the distinct values of sorted items to `values`; returns the index there, by item.
 std::vector<std::uint32_t> ranks_among(const std::vector<Placed>& items,
                                        std::vector<double>& values, const RunContext& run) {
     std::vector<std::uint32_t> ranks;
@@ -65,7 +65,7 @@ std::vector<std::uint32_t> ranks_among(const std::vector<Placed>& items,
     return ranks;
 }
 
-/// Sorts the coordinates of one axis; those of the points `at_one` are replaced by 1.
+/// Fills the grid's vectors for one axis; coordinates of the points `at_one` are replaced by 1.
 void index_axis(const PointSet& points, std::size_t axis, const std::vector<std::uint32_t>& at_one,
                 BoxGrid& grid, const RunContext& run) {
     std::vector<Placed> items;

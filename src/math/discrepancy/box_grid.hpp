@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
 // Base of all searches for the worst box: the grid of coordinates at which boxes begin and end, and
-// the worst box found so far, compared without rounding. A box of volume V with P points inside has
-// an excess, its signed discrepancy times n:
+// the worst box found so far, compared without rounding. The excess of a box is its signed
+// discrepancy times n, the number of points. With volume V and P points inside, it is
 //
 //     open box:  scale V - weight P        closed box:  weight P - scale V
 //
-// with scale n and weight 1 for discrepancies. The search for the largest empty box uses only open
-// boxes, scale 1 and a weight that excludes boxes with points. An open box contains no points on
-// its faces, except on faces of an anchored box at 0; a closed box contains all points on its
-// faces. Half-open boxes [0,c) have the same supremum as anchored open and closed boxes if no point
-// has a coordinate 1. A point with a coordinate 1 is in no half-open box, since c is at most 1. It
-// is moved to (1,...,1): only the closed unit cube contains it, and the cube never has too many
-// points.
+// where scale is n and weight is 1 for discrepancies. The search for the largest empty box uses
+// only open boxes, scale 1 and a weight that excludes boxes with points. An open box contains no
+// points on its faces, except on faces of an anchored box at 0; a closed box contains all points on
+// its faces. Half-open boxes [0,c) have the same supremum as anchored open and closed boxes if no
+// point has a coordinate 1. A point with a coordinate 1 is in no half-open box, since c is at most
+// 1. Such a point is moved to (1,...,1): of the anchored boxes, only the closed unit cube contains
+// it, and this cube never has too many points.
 //
 // Source  H. Niederreiter, "Discrepancy and convex programming", Ann. Mat. Pura Appl. 93 (1972)
 //         89-97, doi:10.1007/BF02412017 (the finite grid).
@@ -39,26 +39,27 @@ enum class Side { open, closed };
 /// The boxes to search.
 enum class Family {
     anchored,   ///< from 0: [0,c) and [0,c]
-    half_open,  ///< [0,c) and limits of these
+    half_open,  ///< [0,c) and limits of such boxes
     cube,       ///< all axis-parallel boxes
     torus,      ///< boxes of the torus, where 1 is 0: a side may wrap from 1 to 0
 };
 
 enum class Measure { discrepancy, emptiness };
 
-/// Ranks on one axis at which a box begins and ends. Anchored boxes begin at 0 and ignore `lower`.
+/// Interval of a box on one axis; its ends are ranks, indices into BoxGrid::values. Anchored boxes
+/// begin at 0 and ignore `lower`.
 struct Interval {
     std::uint32_t lower = 0;
     std::uint32_t upper = 0;
 
     /// True if the interval contains 1 = 0 on the torus. An open interval with equal ends is the
-    /// circle without a point.
+    /// circle without this end.
     [[nodiscard]] bool wraps(Side side) const {
         return side == Side::open ? lower >= upper : lower > upper;
     }
 };
 
-/// The ranks inside an interval: `size` ranks from `first` on, or all others if `complement`.
+/// A set of ranks on one axis: `size` ranks from `first` on, or all others if `complement`.
 struct RankSet {
     std::uint32_t first = 0;
     std::uint32_t size = 0;
@@ -69,8 +70,7 @@ struct RankSet {
     }
 };
 
-/// Ranks between the ends of an interval; if it wraps, ranks above its lower or below its upper
-/// end.
+/// Ranks between the ends of an interval, or above its lower and below its upper end if it wraps.
 RankSet ranks_between(Interval ends, Side side, bool wraps);
 
 /// Distinct coordinates on each axis, and the ranks of the points' coordinates among them. The
@@ -85,7 +85,7 @@ struct BoxGrid {
     std::vector<std::vector<std::uint32_t>> ranks;  ///< by axis: rank of every point
     /// By axis: points sorted by their coordinate; empty if boxes are anchored.
     std::vector<std::vector<std::uint32_t>> order;
-    std::vector<unsigned> digits;  ///< binary digits of the coordinates, by axis
+    std::vector<unsigned> digits;  ///< most binary digits of a coordinate, by axis
     unsigned all_digits = 0;       ///< sum of `digits`
 
     [[nodiscard]] std::size_t dimension() const { return values.size(); }
@@ -122,14 +122,14 @@ struct GridBox {
 };
 
 /// Worst box offered so far; the first of equally bad ones. Before any offer its value is 0, and
-/// there is no box or, if boxes are anchored, the closed cube.
+/// box() has no axes or, if boxes are anchored, is the closed cube.
 class WorstBox {
   public:
     /// Keeps a reference to the grid.
     explicit WorstBox(const BoxGrid& grid);
 
-    /// Replaces the worst box by this one, with `points` points inside, if it is worse. Ignores a
-    /// box without axes.
+    /// Replaces the worst box by `box`, with `points` points inside, if it is worse. Ignores a box
+    /// without axes.
     void offer(const GridBox& box, std::uint64_t points);
 
     /// Offers the box after counting the points in it.
@@ -141,11 +141,10 @@ class WorstBox {
     /// Replaces the worst box by the other's if that is worse.
     void offer(const WorstBox& other);
 
-    /// Discrepancy or volume of the box: its excess divided by the scale, rounded to the nearest
-    /// double.
+    /// Discrepancy or volume of the box: excess divided by scale, rounded to the nearest double.
     [[nodiscard]] double value() const { return value_; }
 
-    /// A box whose value in doubles is below this cannot be worse.
+    /// A box whose value, computed in doubles, is below this threshold cannot be worse.
     [[nodiscard]] double threshold() const { return value_ - rounding_; }
 
     /// Excess of the box, rounded to the nearest double.

@@ -71,7 +71,7 @@ class Search {
         return {};
     }
 
-    /// Does the work unless this peer was stopped; records a stop during the work.
+    /// Calls work() unless a peer was stopped; records if this peer is stopped meanwhile.
     template <class Work>
     void unless_interrupted(const Work& work) {
         if (interrupted_ || stopped_) return;
@@ -83,7 +83,7 @@ class Search {
         }
     }
 
-    /// Replaces limits and bounds of every peer by those of the first.
+    /// Replaces the work limit and the bounds of every peer by those of the first.
     void agree() {
         Packer packer;
         packer.put(limits_.work).put(known_.upper).put(known_.work);
@@ -97,8 +97,8 @@ class Search {
         offer_packed(first, known_.worst);
     }
 
-    /// Exchanges messages, with flags at the end: whether this peer is out of time, and whether it
-    /// was stopped.
+    /// Exchanges messages that end with two flags: whether this peer is out of time, and was
+    /// stopped.
     std::vector<std::string> speak(Packer& packer) {
         packer.put(limits_.late(run_)).put(run_.stop.stop_requested() || interrupted_);
         const auto all = peers_.exchange(packer.take());
@@ -204,7 +204,7 @@ class Search {
     Peers& peers_;
     Known known_;
     std::vector<Cell> cells_;  ///< open cells; a heap with the highest bound first
-    std::size_t most_cells_;   ///< when this many are open, cells are explored to the end
+    std::size_t most_cells_;   ///< with so many open cells, cells are explored to the end
 
     bool interrupted_ = false;  ///< this peer was stopped
     bool stopped_ = false;      ///< some peer was stopped

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
 // Branch and bound over cells: sets of boxes. Cells with the highest bounds are explored first,
-// several at a time. Each is split, depth first, until its parts have bounds below a target between
-// the known bounds of the value, or until its budget is used up. Remaining parts return to the
-// heap. So the upper bound falls steadily, and cells that only an exact answer needs are explored
-// last.
-// Cells explored together share their results only when all are done, so that the search does not
-// depend on the number of threads.
+// several at a time. Each is split, depth first, until its parts have bounds below a target, which
+// is between the known lower and upper bound of the worst value, or until its work budget is used
+// up. Remaining parts become open cells again. So the upper bound falls steadily, and cells that
+// only an exact answer needs are explored last. Cells explored together share their results only
+// when all are done, so that the search does not depend on the number of threads.
 //
 // Peer processes divide the cells of a round among themselves and then exchange the results, so
 // that all have the same state before the next round. All other work is done by every peer. A
@@ -23,7 +22,7 @@
 
 namespace stipple::discrepancy {
 
-/// A set of open or of closed boxes, given by ranges lo[i] to hi[i] of integers. Their meaning
+/// A set of open or of closed boxes, given by ranges lo[i] to hi[i] of integers, whose meaning
 /// depends on the Problem.
 struct Cell {
     Side side;
@@ -36,7 +35,7 @@ struct Cell {
 struct Task {
     Cell cell;
     WorstBox worst;
-    double target;             ///< parts with bounds up to this are left for later
+    double target;             ///< parts with bounds up to the target are left for later
     std::uint64_t budget;      ///< limit on `work`
     std::vector<Cell> rest{};  ///< parts that remain open
     std::uint64_t work = 0;
@@ -46,7 +45,7 @@ struct Task {
 struct Known {
     WorstBox worst;
     double upper = 1;
-    std::uint64_t work = 0;  ///< comparisons done
+    std::uint64_t work = 0;  ///< comparisons of coordinates
 };
 
 /// Interface to a family of boxes to search.
@@ -68,7 +67,8 @@ class Problem {
     /// steadily.
     [[nodiscard]] virtual bool by_stages(const Known& /*known*/) const { return false; }
 
-    /// Improves bounds by other means. Called before every round with the limit on the total work.
+    /// Improves the known bounds by other searches. Called before every round; `work` limits the
+    /// total work of all rounds.
     virtual void look_around(Known& /*known*/, std::uint64_t /*work*/) {}
 };
 

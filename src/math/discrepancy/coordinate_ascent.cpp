@@ -77,8 +77,8 @@ class BoxAscent {
         return inside;
     }
 
-    /// Volume of the box on the other axes, by division if possible: in many dimensions, a product
-    /// would take longer than the counting.
+    /// Product of the box's lengths on all axes except one, by division if possible: in many
+    /// dimensions, multiplying would take longer than counting the points.
     [[nodiscard]] double section(std::size_t axis) const {
         constexpr double tiny = 1e-280;
         if (volume_ > tiny) return volume_ / grid_.length(axis, box_.axes[axis], box_.side);
@@ -88,7 +88,8 @@ class BoxAscent {
         return section;
     }
 
-    /// Moves the box to the worst interval of the axis; returns false if that gains nothing.
+    /// Replaces the box's interval on the axis by the worst one; returns false if nothing is
+    /// gained.
     bool improve(std::size_t axis) {
         work_ += 2 * grid_.count + grid_.values[axis].size();
         const auto& ranks = grid_.ranks[axis];
@@ -113,7 +114,7 @@ class BoxAscent {
         return true;
     }
 
-    /// Worst interval from 0. `all` is the scale times the volume on the other axes.
+    /// Worst interval that begins at 0. `all` is the scale times section(axis).
     [[nodiscard]] Found worst_end(std::size_t axis, double all) const {
         const auto& values = grid_.values[axis];
         const auto weight = static_cast<double>(grid_.weight);
@@ -130,7 +131,7 @@ class BoxAscent {
         return worst;
     }
 
-    /// Worst of all intervals.
+    /// Worst of all intervals on the axis, for the same `all`.
     [[nodiscard]] Found worst_ends(std::size_t axis, double all) {
         const auto& values = grid_.values[axis];
         line_.clear();
@@ -160,9 +161,9 @@ class BoxAscent {
     double excess_ = 0;
     GridBox box_;
     std::vector<std::uint32_t> outside_;  ///< by point: number of axes on which it is outside
-    /// Points inside on all other axes, by rank on this one.
+    /// Number of points inside on all other axes, by rank on the current axis.
     std::vector<std::uint32_t> points_at_;
-    /// Ranks on this axis, ascending, of the points inside on all other axes.
+    /// Ranks of these points on the current axis, ascending.
     std::vector<std::uint32_t> line_;
 };
 
@@ -230,8 +231,8 @@ struct Plan {
     Plan(const BoxGrid& grid, const SearchLimits& limits) {
         constexpr std::uint64_t effort = 1U << 24;  // comparisons: a fraction of a second
         const std::uint64_t size = grid.count * grid.dimension();
-        constexpr std::uint64_t share = 8;    // at most 1 / share of the work
-        constexpr std::uint64_t ascent = 16;  // cost of an ascent on both sides, in units of `size`
+        constexpr std::uint64_t share = 8;    // ascents may use 1 / share of limits.work
+        constexpr std::uint64_t ascent = 16;  // open and closed ascent, in units of `size`
         const std::uint64_t affordable = limits.work / (share * ascent * size);
         const std::uint64_t wanted = std::clamp<std::uint64_t>(effort / size, 8, 200);
         starts = std::clamp<std::uint64_t>(affordable, 1, wanted);
@@ -239,8 +240,8 @@ struct Plan {
     }
 };
 
-/// Moves the corner of an anchored box a bit on two to four axes, possibly one axis twice. Uses the
-/// numbers of `rng` from `drawn` on.
+/// Moves the corner of an anchored box by up to about an eighth of the ranks on two to four axes,
+/// possibly on the same axis twice. Uses the numbers of `rng` from `drawn` on.
 void perturb(const BoxGrid& grid, const Rng& rng, std::uint64_t drawn, GridBox& box) {
     const std::size_t d = grid.dimension();
     const std::uint64_t axes = 2 + rng.below(drawn, 3);
@@ -256,7 +257,7 @@ void perturb(const BoxGrid& grid, const Rng& rng, std::uint64_t drawn, GridBox& 
 
 constexpr std::uint64_t draws_of_a_perturbation = 9;
 
-/// One walk of threshold accepting.
+/// Walk number `number` of a threshold accepting search.
 void walk(const BoxGrid& grid, BoxAscent& ascent, Side side, std::uint64_t number, WorstBox& worst,
           const SearchLimits& limits, const RunContext& run) {
     constexpr std::uint64_t effort = 1U << 23;

@@ -30,8 +30,8 @@ class HighestKey {
     std::vector<std::uint32_t> keys_;
 };
 
-/// A range of positions, and the ranks that bound it. On the torus it may extend past either end,
-/// by at most one turn.
+/// A range [first, last) of positions, and the ranks that bound it. On the torus it may extend past
+/// either end, by at most one turn.
 struct Width {
     std::int64_t first;
     std::int64_t last;
@@ -95,7 +95,7 @@ class Sweep {
         return true;
     }
 
-    /// Offers rectangles between neighbouring ranks on the first axis.
+    /// Offers the rectangles of full height between neighbouring ranks on the first axis.
     void offer_gaps() {
         const auto top = static_cast<std::uint32_t>(grid_.values[1].size() - 1);
         const Interval whole = torus_ ? Interval{0, 0} : Interval{0, top};
@@ -132,13 +132,13 @@ class Sweep {
         worst_.offer({.side = Side::open, .axes = {across, along}}, 0);
     }
 
-    /// True if no rectangle with this width and a height up to `reach` can be larger than the
-    /// largest so far.
+    /// True if no rectangle of this width and a height up to `reach` is larger than the largest so
+    /// far.
     [[nodiscard]] bool is_too_small(const Width& width, double reach) const {
         return grid_.length(0, width.between, Side::open) * reach <= worst_.value() - margin_;
     }
 
-    /// Cuts off the part of the width beyond the points at `rank`, as seen from position `from`.
+    /// Cuts the width at the points of `rank` and keeps the side with position `from`.
     void shrink(Width& width, std::uint32_t rank, std::int64_t from) const {
         const auto begin = static_cast<std::int64_t>(first_at_[rank]);
         const auto end = static_cast<std::int64_t>(first_at_[rank + 1]);
@@ -185,8 +185,7 @@ class Sweep {
     }
 
     /// Offers all rectangles that reach the ceiling of the square: over each range of positions,
-    /// the rectangle ends at the highest point, where the range is then split to the left and
-    /// right.
+    /// the rectangle ends at the highest point, where the range is then split.
     void offer_below_ceiling() {
         const auto top = static_cast<std::uint32_t>(grid_.values[1].size() - 1);
         std::vector<Interval> open{{0, end_}};
@@ -204,7 +203,7 @@ class Sweep {
         }
     }
 
-    /// Offers all rectangles of the torus between neighbouring ranks that have full height.
+    /// Offers all rectangles of full height on the torus.
     void offer_full_heights() {
         for (std::uint32_t a = 0; a < end_; ++a) offer({a, a + 1}, {0, 0});
         offer({end_, 0}, {0, 0});

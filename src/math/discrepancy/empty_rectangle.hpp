@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // The largest empty rectangle in the square or on the torus, from all maximal ones. A maximal
-// rectangle has a point on its upper side. Below each point, the search starts with the full width.
-// The highest point inside bounds this rectangle from below, and bounds deeper ones from the left
-// or the right. This repeats until a point is straight below the first.
+// rectangle has a point on its upper side or reaches the ceiling of the square. Below each point,
+// the search starts with the full width. The highest point inside bounds this rectangle from below,
+// and bounds deeper ones from the left or the right. This repeats until a point is straight below
+// the first.
 //
 // Cost    O((n + s) log n) with s <= n^2 maximal rectangles (about n log n for random points), in
 //         practice less, since narrow ones are skipped; O(n) memory.
@@ -22,7 +23,7 @@ namespace stipple::discrepancy {
 SearchResult largest_empty_rectangle(const BoxGrid& grid, const SearchLimits& limits,
                                      const RunContext& run);
 
-/// Bytes per point, besides the grid.
+/// Bytes per point that largest_empty_rectangle() needs besides the grid.
 constexpr std::size_t rectangle_bytes = 16;
 
 }  // namespace stipple::discrepancy

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Limits that end searches for a worst box early: time, work, or proven bounds that are close
-// enough.
+// Limits that end searches for a worst box early: time, work, or a tolerance of the bounds.
 #pragma once
 
 #include <cstdint>
@@ -98,7 +97,7 @@ struct SearchResult {
     }
 };
 
-/// Result of a sweep. If it was cut short, the upper bound is 1.
+/// Result of a sweep. Its upper bound is 1 unless the sweep was completed.
 SearchResult result_of_sweep(WorstBox worst, bool complete, const SearchLimits& limits,
                              const RunContext& run);
 
@@ -116,7 +115,7 @@ class Limits {
     /// Reads the options. @throws Error(usage) if they contradict each other
     Limits(const Values& options, const RunContext& run);
 
-    /// Limits for a part with these fractions of the work and of the remaining time.
+    /// Limits for one of several searches: fractions of the work and of the remaining time.
     [[nodiscard]] Limits part(double of_work, double of_time, const RunContext& run) const;
 
     /// Warns if a limit ended the search of `what`, such as "the star discrepancy", before its
@@ -127,7 +126,7 @@ class Limits {
 
     SearchLimits search;
     bool exact = false;    ///< only the exact value is accepted
-    bool bounded = false;  ///< bounds suffice
+    bool bounded = false;  ///< proven bounds are accepted
     double start = 0;
 
   private:

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The worst interval of points on a line: a maximum-subarray problem. Let a box have the volume h
-// on the other axes, and contain all points of the line on these axes. Then its excess is
-// h * length - w * (number of points) if it is open, and minus that if it is closed. Let P_i and
-// Q_i be h * length - w * (number of points) of the interval from 0 to point i, without and with
-// the point itself:
+// The worst interval of points on a line: a maximum-subarray problem. Consider boxes that contain
+// all points of the line on the other axes; h is the product of their sides there times the scale
+// of box_grid.hpp, w the weight. The excess of such a box is h * length - w * (number of points) if
+// it is open, and the negative of this if it is closed. Let P_i and Q_i be h * length - w * (number
+// of points) of the interval from 0 to point i, without and with the point itself:
 //
 //     P_i = h x_i - w #{before i},      Q_i = P_i - w;
 //
@@ -25,7 +25,7 @@
 
 namespace stipple::discrepancy {
 
-/// Used instead of the index of a point if an interval extends to an end of the line.
+/// Replaces the index of a point if an interval extends to an end of the line.
 inline constexpr std::size_t line_end = std::numeric_limits<std::size_t>::max();
 
 template <class Number>
@@ -54,8 +54,7 @@ WorstInterval<Number> worst_interval(std::size_t n, const LineTerms<Number>& lin
     const bool torus = line.torus;
     const Number around = open ? line.all - line.points : line.points - line.all;
     WorstInterval<Number> best{around};
-    // The whole circle is no worse than the circle cut at a point, so only ends at points are
-    // tried.
+    // The circle cut at a point is at least as bad as the whole one, so only cut ones are tried.
     if (torus && n > 0) best.excess = -(line.all + line.points);
     Number highest = 0;
     Number lowest = 0;  // Q at the line's start, at which an open interval may begin

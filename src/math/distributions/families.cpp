@@ -38,7 +38,7 @@ MarginalPtr triangular_of(const ParameterValues& p) {
     return triangular_law(p["low"], p["mode"], p["high"]);
 }
 
-/// Takes mean and standard deviation of either the logarithm or the number itself.
+/// Accepts the mean and standard deviation of either the logarithm or the variable itself.
 MarginalPtr lognormal_of(const ParameterValues& p) {
     const auto mean = p.find("mean");
     const auto deviation = p.find("deviation");

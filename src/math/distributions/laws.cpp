@@ -37,7 +37,7 @@ namespace stipple {
 namespace {
 
 // Takes the law by value, so that stores to `numbers` cannot change it and its constants stay in
-// registers. All calls must be inlined, or else the loop is not vectorised.
+// registers. Unless all calls are inlined, the loop is not vectorised.
 template <class Law>
 STIPPLE_WIDE [[gnu::flatten]] void lower_quantiles(const Law law, std::span<double> numbers) {
     for (double& x : numbers) x = law.quantile(x, Tail::lower);
@@ -257,7 +257,7 @@ struct Lognormal {
     double place(double x) const { return (logarithm(x) - mu) / sigma; }
 };
 
-/// E(p), or E(1 - p) for the upper tail.
+/// Standard exponential quantile: E(p), or E(1 - p) for the upper tail.
 double standard_decay(double p, Tail tail) {
     return tail == Tail::lower ? 0.0 - log_1p(-p) : 0.0 - logarithm(p);
 }
@@ -317,7 +317,7 @@ struct Gumbel {
     double scale;
 
     double quantile(double p, Tail tail) const {
-        const double small = tail == Tail::lower ? 1 - p : p;  // exact if small
+        const double small = tail == Tail::lower ? 1 - p : p;  // 1 - p is exact if it is small
         const double near = 0.0 - log_1p(-small);
         const double far = 0.0 - logarithm(p);
         const double decay = tail == Tail::lower && p < 0.5 ? far : near;

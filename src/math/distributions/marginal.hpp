@@ -10,11 +10,11 @@
 //
 // Shape   p in [0, 1]: 0 and 1 are the ends of the support, which may be infinite.
 // Promise relative error 1e-13 of quantiles, probabilities and densities, for probabilities from
-//         1e-300 on, unless a distribution states otherwise. A quantile that is a difference from a
-//         location or an end has an error of 1e-13 of the larger of the two. Probabilities and
-//         densities may also have the error from changing x by 4 units in the last place. Relative
-//         error 1e-9 of mean and variance, absolute error 1e-9 of the skewness. The same bits on
-//         every machine.
+//         1e-300 on, unless a distribution states otherwise. A quantile computed as a location or
+//         end plus a term has an error of 1e-13 of the larger of the two. Probabilities and
+//         densities may also change as if x differed by 4 units in the last place. Relative error
+//         1e-9 of mean and variance, absolute error 1e-9 of the skewness. The same bits on every
+//         machine.
 #pragma once
 
 #include <memory>
@@ -65,8 +65,8 @@ class Marginal {
     virtual void quantiles(std::span<double> p) const = 0;
 };
 
-/// Moments of a continuous distribution by quadrature over p. Not finite if the part beyond p =
-/// 1e-300 exceeds a fraction of 1e-12, as for infinite moments.
+/// Moments of a continuous distribution by quadrature over p. Not finite if the tails beyond p =
+/// 1e-300 contribute more than a fraction of 1e-12, as for infinite moments.
 MarginalMoments moments_by_quadrature(const Marginal& law);
 
 /// Restricts the distribution to [low, high], either of which may be infinite, and normalizes it.

@@ -33,7 +33,7 @@ std::vector<double> sums_from_above(const std::vector<double>& weights) {
     return sums;
 }
 
-/// F at each outcome, computed from the nearer end.
+/// F at each outcome, as a sum from the nearer end of the table.
 std::vector<double> cell_ends(const std::vector<double>& weights,
                               const std::vector<double>& above) {
     std::vector<double> ends = running_sums(weights);
@@ -193,8 +193,8 @@ class Interpolated final : public Marginal {
         const std::size_t i = piece_of(x);
         return 1 / (pieces_ * (x_[i + 1] - x_[i]));
     }
-    /// Moments of a mixture of uniform distributions on the pieces, computed relative to a middle
-    /// number in units of the width.
+    /// Moments of a mixture of uniform distributions between neighbouring numbers, computed
+    /// relative to the median in units of the range.
     MarginalMoments moments() const override {
         const double middle = x_[x_.size() / 2];
         const double unit = x_.back() - x_.front();

@@ -21,7 +21,7 @@
 namespace stipple {
 namespace {
 
-/// Probability between a < b, computed without cancellation if it is small.
+/// Probability of [a, b], a < b, computed without cancellation if it is small.
 double mass_between(const Marginal& law, double a, double b) {
     const double below = law.probability(a, Tail::lower);
     const double above = law.probability(b, Tail::upper);
@@ -79,7 +79,7 @@ class Truncated final : public Marginal {
 };
 
 /// E ((x - about) / unit)^n, integrated over w in both tails, with p = exp(-w) / 2. NaN if more
-/// than a fraction of 1e-12 is beyond p = 1e-300, or if it is infinite.
+/// than a fraction of 1e-12 is beyond p = 1e-300, or if the moment is infinite.
 double moment_about(const Marginal& law, double about, double unit, int n) {
     double sum = 0, size = 0, beyond = 0;
     for (const Tail tail : {Tail::lower, Tail::upper}) {

@@ -39,8 +39,8 @@ class LineTransform {
     std::unique_ptr<Plan> plan_;
 };
 
-/// Transform of a real function on a product of cyclic groups. In the spectrum the last group of
-/// order n has n / 2 + 1 frequencies.
+/// Transform of a real function on a product of cyclic groups. The spectrum has n / 2 + 1
+/// frequencies for the last group, if this has order n, and all for the others.
 class GroupTransform {
   public:
     /// @param shape orders of the groups, the last one varying fastest

@@ -46,7 +46,7 @@ struct Layout {
 };
 
 #define POCKETFFT_NO_MULTITHREADING  // lines are already divided among threads
-#define POCKETFFT_CACHE_SIZE 4       // a search in a product of groups alternates between a few
+#define POCKETFFT_CACHE_SIZE 4       // plans; a search in a product of groups needs few
 #define STIPPLE_KERNELS "math/fourier/pocketfft_lanes.hpp"
 #include "core/machine/vector_widths.hpp"
 

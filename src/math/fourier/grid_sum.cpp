@@ -11,7 +11,7 @@
 namespace stipple {
 namespace {
 
-constexpr std::uint64_t block = std::uint64_t{1} << 18;  // cells of a block
+constexpr std::uint64_t block = std::uint64_t{1} << 18;  // number of cells per block
 
 // Adding 1.5 x 2^52 units rounds a number to a multiple of the unit, and puts the multiple into the
 // last bits of the double.
@@ -37,8 +37,8 @@ double signed_of(std::uint64_t bits) {
     return static_cast<double>(static_cast<std::int64_t>(bits));
 }
 
-/// Smallest exponent that is a multiple of 4 with size <= 2^exponent. A sum of such grids loses at
-/// most 2^-61 of its size.
+/// Smallest multiple of 4 with size <= 2^exponent. It is at most 16 size, so that rounding a cell
+/// changes it by at most 2^-61 of `size`.
 int exponent_of(double size) {
     if (!(size > 0)) return 0;
     constexpr int farthest = 1000;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Sums of grids of numbers of any size, independent of the order of additions. Grids of similar
-// size are added together. Each cell is divided by a power of two and split into integer multiples
-// of 2^-21 and, for the remainder, of 2^-64. This rounds a grid once, by at most 2^-65 of the power
-// of two. Sums of the integers are exact, so grids can be added in any order and in any parts. The
-// sums for different sizes are added in a fixed order. So rounding errors are relative to the size
-// of each grid.
+// Sums of grids, independent of the order of additions. Grids whose cells have similar magnitudes
+// are added together: each cell is divided by a common power of two and split into integer
+// multiples of 2^-21 and, for the remainder, of 2^-64. This rounds a cell once, by at most 2^-65 of
+// the power of two. Sums of the integers are exact, so these grids can be added in any order and
+// grouping. Sums for different powers of two are added in a fixed order. So the rounding errors are
+// relative to the magnitude of each grid.
 //
-// Shape   16 bytes per cell and size; cells below 2^29 times their grid's size, and sums of up to
-//         2^20 grids, below 2^42 times that size.
+// Shape   16 bytes per cell and power of two in use; cells below 2^29 times this power, and sums of
+//         up to 2^20 grids, below 2^42 times it.
 #pragma once
 
 #include <cstdint>

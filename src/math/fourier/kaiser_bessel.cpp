@@ -30,8 +30,7 @@ Square chebyshev_polynomials(std::size_t count) {
     return c;
 }
 
-/// shares[n][i] is the contribution of a value at the i-th Chebyshev node to the coefficient of
-/// T_n.
+/// shares[n][i] is the weight of the value at the i-th Chebyshev node in the coefficient of T_n.
 Square interpolation(std::size_t count) {
     Square shares{};
     for (std::size_t n = 0; n < count; ++n)
@@ -47,7 +46,7 @@ double bessel(double x) { return boost::math::cyl_bessel_i(0, x); }
 
 KaiserBessel::KaiserBessel(std::size_t width, double band) : width_(width), band_(band) {
     assert(width >= min_width && width <= max_width && band > 0 && band < 0.5);
-    // Ends the window's transform slightly below the nearest alias of the band.
+    // The main lobe of the window's transform ends slightly below the band's nearest alias.
     beta_ = 0.98 * std::numbers::pi * static_cast<double>(width) * (1 - band);
     scale_ = 1 / bessel(beta_);
     error_ = largest_error();
@@ -76,8 +75,8 @@ std::array<double, KaiserBessel::max_width> KaiserBessel::weights(double u) cons
 }
 
 double KaiserBessel::largest_error() const {
-    constexpr std::size_t places = 8;       // between grid points; the error varies smoothly
-    const auto place = [](std::size_t p) {  // up to 1/2, by symmetry
+    constexpr std::size_t places = 8;       // positions tested between grid points
+    const auto place = [](std::size_t p) {  // in [0, 1/2]: errors are symmetric
         return static_cast<double>(p) / (2 * (places - 1));
     };
     std::array<std::array<double, max_width>, places> weights{};
@@ -114,7 +113,7 @@ KaiserBessel window_for(double tolerance, double band) {
 
 WeightTable::WeightTable(const KaiserBessel& window) : width_(window.width()), pieces_(2) {
     // Error of interpolating a wave at the end of the band by a polynomial through a piece's
-    // Chebyshev nodes; the error of the weights approaches it.
+    // Chebyshev nodes; that of interpolating the weights is about as large.
     constexpr std::size_t most_pieces = 64;  // more give no gain, because values are rounded
     const double allowed = std::max(0.05 * window.error(), 1e-15);
     const auto terms = static_cast<double>(degree() + 1);
@@ -128,7 +127,7 @@ WeightTable::WeightTable(const KaiserBessel& window) : width_(window.width()), p
     const Square shares = interpolation(nodes);
     const Square chebyshev = chebyshev_polynomials(nodes);
     for (std::size_t piece = 0; piece < pieces_; ++piece) {
-        std::array<std::array<double, KaiserBessel::max_width>, max_nodes> sums{};  // for each T_n
+        std::array<std::array<double, KaiserBessel::max_width>, max_nodes> sums{};  // by n of T_n
         for (std::size_t i = 0; i < nodes; ++i) {
             const double place = static_cast<double>(piece) + (node(i, nodes) + 1) / 2;
             const auto weights = window.weights(place / static_cast<double>(pieces_));

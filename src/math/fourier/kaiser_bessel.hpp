@@ -42,8 +42,8 @@ class KaiserBessel {
     [[nodiscard]] double scaling(double xi) const;
 
     /// The window at the `width` grid points around a point.
-    /// @param u in [0, 1]: the point's distance in cells from grid point floor(width / 2) - 1,
-    /// counted from 0; for odd widths, this distance minus 1/2
+    /// @param u in [0, 1]: the point's distance in cells from grid point floor(width / 2) - 1, the
+    /// first being 0; for odd widths, this distance minus 1/2
     [[nodiscard]] std::array<double, max_width> weights(double u) const;
 
     /// Largest error of exp(-2 pi i xi x), |xi| <= band, for one point in one dimension, after
@@ -55,7 +55,7 @@ class KaiserBessel {
     /// band, relative to those at 0.
     [[nodiscard]] double magnification() const { return scaling(0) / scaling(band_); }
 
-    /// Cheap estimate of error().
+    /// Estimate of error() by a formula.
     static double expected_error(std::size_t width, double band);
 
   private:
@@ -83,8 +83,8 @@ class WeightTable {
     /// Length of a row of coefficients, a multiple of 8; unused ones are zero.
     static constexpr std::size_t row_of(std::size_t width) { return (width + 7) / 8 * 8; }
 
-    /// Degree of the polynomials, the fastest: with it, the table fits the first-level cache
-    /// together with a tile.
+    /// Degree of the polynomials, chosen for speed: with it, the table fits the first-level cache
+    /// together with a tile's buffer.
     static constexpr std::size_t degree_of(std::size_t width) { return (width + 3) / 4 + 2; }
 
     [[nodiscard]] std::size_t degree() const { return degree_of(width_); }

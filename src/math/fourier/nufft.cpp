@@ -19,8 +19,8 @@ namespace {
 double cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
                const KaiserBessel& window) {
     const auto width = static_cast<double>(window.width());
-    // Mean number of vectors of four and of eight doubles, so that the choice does not depend on
-    // the machine.
+    // Mean for machines with vectors of four and of eight doubles, where one of eight counts as
+    // two, so that the choice does not depend on the machine.
     const double vectors = std::ceil(width / 4) / 2 + std::ceil(width / 8);
     const double d = static_cast<double>(dimension);
     const double cells = real_power_of(side, dimension);
@@ -28,7 +28,7 @@ double cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
     const double evaluating = d * (2e-9 + vectors * 1.1e-9);
     const double n = static_cast<double>(count);
     const double passes = std::ceil(n / std::clamp(cells, 1048576.0, 4194304.0));
-    constexpr double touching = 5e-9;  // first use of memory, per cell
+    constexpr double touching = 5e-9;  // seconds per cell for the first use of its memory
     const double spreading = n * (8e-9 + adding + evaluating) + passes * cells * 4e-9;
     return spreading + transform_seconds(dimension, side) + cells * touching;
 }
@@ -39,8 +39,8 @@ constexpr double reserve = 1.2;
 
 /// True if the division by the scaling factors keeps rounding errors small enough.
 bool keeps_digits(const KaiserBessel& window, std::size_t dimension, double allowed) {
-    // Limits found by trial, for the largest errors per point: in sums over points in one place,
-    // and in the polynomials of each axis.
+    // Limits found by trial, for the largest errors per point: in sums over coinciding points, and
+    // in the window's polynomials on each axis.
     const double times = window.magnification();
     return 1e-15 * std::pow(times, dimension) <= std::max(allowed / 8, 2e-14) &&
            6e-15 * times <= std::max(allowed / 16, 4e-14);
@@ -109,7 +109,7 @@ std::size_t lines_of(const Nufft& nufft) {
     return static_cast<std::size_t>(real_power_of(nufft.side(), nufft.dimension() - 1));
 }
 
-/// Clears the cells for the next block.
+/// Sets the cells to 0, for the next block of points.
 void zero(std::span<double> cells, const RunContext& run) {
     constexpr std::uint64_t some = std::uint64_t{1} << 18;
     for_each_block(silent(run), cells.size(), some, [&](const Block& b) {
@@ -195,8 +195,8 @@ FourierSums FourierSummation::finish(Planning planning, const RunContext& run) {
 
 namespace {
 
-/// exp(-2 pi i f x) for f = 0..last. The product f x is split, so that its integer part is removed
-/// before rounding.
+/// exp(-2 pi i f x) for f = 0..last. The product f x is split to remove its integer part before
+/// rounding.
 void phases(double x, std::size_t last, std::complex<double>* out) {
     const double high = static_cast<double>(static_cast<float>(x));
     for (std::size_t f = 0; f <= last; ++f) {
@@ -208,8 +208,8 @@ void phases(double x, std::size_t last, std::complex<double>* out) {
     }
 }
 
-/// Phases of some points along each axis: [point][axis][0..F]. Those along the first axis are
-/// multiplied by the point's strength.
+/// Phases exp(-2 pi i f x_k) of some points for f = 0..F, indexed by [point][axis k][f]. Those of
+/// the first axis are multiplied by the point's strength.
 struct PhaseTable {
     std::size_t dimension;
     std::size_t last;
@@ -226,7 +226,7 @@ struct PhaseTable {
             }
     }
 
-    /// Adds exp(-2 pi i f.x) for all points to a row of sums, f_0 = 0..F.
+    /// Adds the terms of all points to a row of sums S(f), f_0 = 0..F.
     void add(const std::array<std::int64_t, 3>& f, std::span<std::complex<double>> row) const {
         for (std::size_t at = 0; at < values.size(); at += dimension * (last + 1)) {
             std::complex<double> factor = 1;

@@ -71,7 +71,7 @@ class Nufft {
 };
 
 /// Transform of points that arrive in portions. Each block of points is spread over a grid, and the
-/// grids are added by ScaledGridSum. So blocks may be distributed, and the partial results merged.
+/// grids are added by ScaledGridSum. So processes can sum different blocks, and merge the sums.
 class FourierSummation {
   public:
     explicit FourierSummation(const Nufft& nufft);

@@ -19,16 +19,15 @@ double smallest_tile(std::size_t dimension) {
     return dimension == 1 ? 1024 : dimension == 2 ? 32 : 16;
 }
 
-/// Points are sorted in streams, which threads can work on in parallel: chunks of points go to the
-/// streams in turn.
+/// Points are sorted in streams, one thread each; chunks of points go to the streams in turn.
 constexpr std::size_t streams = 2;
 constexpr std::size_t stream_chunk = std::size_t{1} << 15;
 constexpr std::size_t round_of_streams = streams * stream_chunk;
-constexpr std::size_t sorting_block = std::size_t{1} << 12;  // points that fit in the caches
-constexpr std::size_t tiles_at_a_time = 128;  // tiles of a colour before the next one
+constexpr std::size_t sorting_block = std::size_t{1} << 12;  // number of points that fit the caches
+constexpr std::size_t tiles_at_a_time = 128;  // tiles of one colour before the next colour
 
-/// Maximum number of points of a tile summed before the sums are added to the grid; this keeps
-/// rounding errors of long sums small.
+/// Maximum number of points summed in a tile's buffer before it is added to the grid: shorter sums
+/// have smaller rounding errors.
 constexpr std::size_t fold_after = 512;
 
 /// Number of points sorted at a time: about the number of cells, between 2^20 and 2^22.
@@ -36,7 +35,7 @@ std::size_t spreading_batch(const CellGrid& grid) {
     constexpr std::size_t most = std::size_t{1} << 30;  // within the range of 32-bit counters
     std::size_t cells = 1;
     for (std::size_t k = 0; k < grid.dimension; ++k) cells = std::min(most, cells * grid.side);
-    // With fewer points than cells, passes over the grid would be too frequent.
+    // Batches much smaller than the grid would need too many passes over it.
     cells = std::clamp(cells, std::size_t{1} << 20, std::size_t{1} << 22);
     return cells / round_of_streams * round_of_streams;
 }
@@ -54,7 +53,7 @@ class Spreader::Tiling {
         for (std::size_t t = 0; t <= along_; ++t) starts_.push_back(t * grid.side / along_);
         for (std::size_t t = 0; t < along_; ++t)
             widest_ = std::max(widest_, starts_[t + 1] - starts_[t]);
-        assert(widest_ <= 4096);  // grid points in a tile have 12 bits
+        assert(widest_ <= 4096);  // find_places() has 12 bits for them
         common_ = {.side = static_cast<double>(grid.side),
                    .tiles = static_cast<double>(along_),
                    .shift = window.width() % 2 == 1 ? 0.5 : 0.0,

@@ -12,15 +12,15 @@
 namespace stipple {
 namespace {
 
-/// A complex number that is moved as a unit.
+/// A complex number in memory, loaded and stored as one vector.
 using PairInMemory = double __attribute__((vector_size(16), aligned(8), may_alias));
 
 /// Number of lines whose transform takes about a quarter of a millisecond.
 std::size_t lines_at_a_time(std::size_t side) { return std::max<std::size_t>(1, 65536 / side); }
 
-constexpr std::size_t batch_size = 16;  // columns that share cache lines
+constexpr std::size_t batch_size = 16;  // columns transformed together, from shared cache lines
 
-/// Number of rows that are scaled while they are in the cache.
+/// Number of rows transformed before they are scaled, so that they are still in the cache.
 constexpr std::size_t rows_at_a_time = 8;
 
 /// Transforms the rows of the grid and scales the frequencies needed.

@@ -4,8 +4,8 @@
 //
 //     S(f) = c(f_0) c(f_1) ... sum_i g[i] exp(-2 pi i f.i / M),    |f_k| <= F,
 //
-// first by rows, then across them. Only F + 1 numbers of each row's transform are used further, and
-// half of the frequencies follow from the others.
+// with given factors c; first along the rows, then across them. Only F + 1 numbers of each row's
+// transform are used further, and half of the frequencies follow from the others.
 //
 // Shape   f_0 = 0..F, the fastest index; f_1, f_2 = -F..F. The other half is S(-f) = conj S(f).
 // Cost    O(M^d log M); 13 ms for M = 2048, F = 512 in the plane on one core.
@@ -49,7 +49,7 @@ std::size_t quick_length(std::size_t least);
 /// Approximate time of the transform on one core, in seconds.
 double transform_seconds(std::size_t dimension, std::size_t side);
 
-/// Transforms the grid in place and returns the frequencies; the grid is destroyed.
+/// Transforms the grid in place, destroying it, and returns S(f). @param factors c(0), ..., c(F)
 FourierSums transform_grid(GridCells cells, const CellGrid& grid, std::span<const double> factors,
                            Planning planning, const RunContext& run);
 

@@ -46,9 +46,9 @@ STIPPLE_INLINE V truncated(const V& v) {
 #endif
 }
 
-/// Computes side * x for several numbers without rounding: the upper 26 bits of x give an exact
-/// product. Returns the grid points at which their windows begin, and the positions after a grid
-/// point, in [0, 1).
+/// Computes side * x for several coordinates x without rounding: the upper 26 bits of x give an
+/// exact product. Sets `first` to the grid points at which the windows begin, and `between` to the
+/// positions between two grid points, in [0, 1).
 STIPPLE_INLINE void locate(const V& x, const SpreadTile& tile, V& first, V& between) {
     constexpr std::uint64_t high_bits = ~((std::uint64_t{1} << 27) - 1);
     const V high = (V)((Words)x & high_bits);
@@ -89,7 +89,7 @@ STIPPLE_INLINE void by_axis(const double* points, std::size_t count, std::size_t
             axes[k][i] = i < count ? points[i * numbers + k] : 0;
 }
 
-/// Zeros before a window's values, for shifts along a row.
+/// Number of zeros before a window's values, so that the values can be shifted along a row.
 constexpr std::size_t margin = lanes;
 
 /// Number of vectors for the values of a window of width 4 Fours - 3 to 4 Fours. Windows of these
@@ -112,12 +112,12 @@ struct Chunk {
     }
 };
 
-/// The lower 52 bits: the position after a grid point in a word of find_places(), or the mantissa
-/// of a double.
+/// Mask of the lower 52 bits: the position between two grid points in a word of find_places(), or
+/// the mantissa of a double.
 constexpr std::uint64_t fraction = (std::uint64_t{1} << 52) - 1;
 STIPPLE_INLINE Words word_of(const V& cell, const V& between) {
     const V zero = {};
-    const V below = between < 1 - 0x1p-52 ? between : zero + (1 - 0x1p-52);  // 1 + this is below 2
+    const V below = between < 1 - 0x1p-52 ? between : zero + (1 - 0x1p-52);  // 1 + below < 2
     return (Words)(cell + 0x1p52) << 52 | ((Words)(below + 1) & fraction);
 }
 STIPPLE_INLINE V cell_of(const Words& word) {
@@ -186,8 +186,8 @@ STIPPLE_INLINE void add_rows(double* row, std::size_t extent, const double* weig
     for (std::size_t i = 0; i < rows; ++i) add_row(row + i * extent, weights[i] * factor, along);
 }
 
-/// Adds a window to the buffer. Rows are shifted to a vector boundary, so that no vector spans two
-/// cache lines, if the window is enough narrower than its vectors.
+/// Adds a window to the buffer. If the window leaves enough elements of its vectors unused, its
+/// rows are shifted to a vector boundary, so that no vector spans two cache lines.
 template <std::size_t Dimension, std::size_t Fours>
 STIPPLE_INLINE void add_window(
     const double (&values)[Dimension][margin + vectors_of(Fours) * lanes], const SpreadTile& tile,
@@ -211,8 +211,8 @@ STIPPLE_INLINE void add_window(
 
 template <std::size_t Dimension, std::size_t Fours>
 void add_all(std::span<const double> rows, const SpreadTile& tile, double* buffer) {
-    // Allocated once a thread, when it is needed: as a thread-local object it would take room in every
-    // thread of the program, and time when one starts. Its margins stay 0.
+    // Allocated at its first use in a thread: as a thread-local object it would take memory in
+    // every thread of the program, and time when a thread starts. Its margins stay 0.
     thread_local const auto allocated = std::make_unique<Chunk<Dimension, Fours>>();
     Chunk<Dimension, Fours>& work = *allocated;
     const std::size_t numbers = tile.numbers;
@@ -280,7 +280,7 @@ void find_all(std::span<const double> rows, const SpreadTile& common, std::uint3
                 V between;
                 locate(load<V>(&axes[k][i]), common, first, between);
                 // The last tile t with t side / tiles < first + 1, and the first grid point of that
-                // tile. Truncation is safe, because the numbers are far from integers.
+                // tile. Truncation is safe, because the truncated values are far from integers.
                 const V tile = truncated(first * tiles_a_cell + past_tile);
                 const V start = truncated(tile * cells_a_tile + past_cell);
                 sum += step_k * tile;

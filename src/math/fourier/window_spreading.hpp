@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Inner loops of spreading points over a grid: positions of their windows, values of the windows,
-// and sums in the buffer of a tile of the grid.
+// Inner loops that spread points over a grid: they locate the points' windows, evaluate them, and
+// add them to the buffer of a tile of the grid.
 //
 // Promise the same bits on any machine: vectors compute the same as scalar code.
 // Beware  M x is never rounded to a double: the product's high part is exact, and the position
@@ -25,13 +25,13 @@ struct SpreadTile {
     double shift = 0;                      ///< 1/2 for odd windows, which centre on a grid point
     double lead = 0;                       ///< grid points of the window before the point's cell
     std::size_t width = 0;                 ///< width of the window, in grid points
-    unsigned piece_bits = 0;               ///< the window's table has 2^this pieces
+    unsigned piece_bits = 0;               ///< the window's table has 2^piece_bits pieces
     const double* coefficients = nullptr;  ///< coefficients of the window's table
     std::size_t numbers = 0;               ///< numbers per point: coordinates, then any strength
     /// Cells in a row of the buffer: a multiple of 8, enough for the widest tile and whole vectors.
     std::size_t extent = 0;
     std::array<std::int64_t, 3> start{};           ///< first cell, by axis
-    std::array<std::size_t, 3> reach = {1, 1, 1};  ///< cells that its points touch, by axis
+    std::array<std::size_t, 3> reach = {1, 1, 1};  ///< cells that its windows touch, by axis
 };
 
 /// Finds the tiles in which the windows of points begin, and their positions there. The t-th tile

@@ -17,8 +17,7 @@ namespace stipple {
 
 struct Cholesky {
     std::vector<double> factor;  ///< d x d, row after row; complete if `failed` is 0
-    /// Size of the first leading minor that is 0 up to rounding errors, or negative; 0 if there is
-    /// none.
+    /// Size of the first leading minor that is 0 up to rounding errors, or negative; 0 if none is.
     std::size_t failed = 0;
     double minor = 1;  ///< value of the failed minor, or the determinant if `failed` is 0
 };

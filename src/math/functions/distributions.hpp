@@ -2,8 +2,7 @@
 //
 // Distribution functions and quantiles of test statistics.
 //
-// Promise accurate to nearly the last digit; values far out in a tail may be less accurate, without
-//         an error.
+// Promise accurate to nearly the last digit; less accurate, without a warning, far out in a tail.
 #pragma once
 
 #include "math/functions/log_excess.hpp"
@@ -19,7 +18,7 @@ double chi_square_above(double statistic, double freedom);
 /// large with probability 0.9.
 double detectable_noncentrality(double freedom, double level);
 
-/// Probability that Student's t with `freedom` degrees of freedom is above `t`, in [0, 1e150].
+/// Probability that Student's t with `freedom` degrees of freedom is above t, 0 <= t <= 1e150.
 double student_above(double t, double freedom);
 
 /// The value that Student's t with `freedom` degrees of freedom exceeds with probability `above`.

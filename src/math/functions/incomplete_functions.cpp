@@ -42,9 +42,10 @@ struct Rise {
     double slope;
 };
 
-/// Returns the t at which the logarithm of an increasing probability is log_p. In log x and log(x /
-/// (1 - x)), gamma and beta densities are log-concave, and so are their probabilities: Newton steps
-/// from any start converge from below. Bisection replaces them if a value is not finite.
+/// Returns the t at which the logarithm of an increasing probability is log_p. As functions of log
+/// x and of log(x / (1 - x)), gamma and beta densities are log-concave, and so are their
+/// probabilities: Newton steps from any start converge from below. Bisection replaces them if a
+/// value is not finite.
 template <class Function>
 double solve(const Function& probability, double log_p, double t) {
     double low = -745;

@@ -28,7 +28,7 @@ struct PortableDouble {
     template <class Number>
     requires std::is_arithmetic_v<Number>
     constexpr PortableDouble(Number x)
-        : value(static_cast<double>(x)) {}  // NOLINT: a number is one
+        : value(static_cast<double>(x)) {}  // NOLINT: implicit on purpose
     template <class Number>
     requires std::is_arithmetic_v<Number>
     explicit operator Number() const { return static_cast<Number>(value); }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Trigonometric functions of angles in radians, from those of turns.
+// Trigonometric functions of angles in radians, from those of angles in turns.
 //
-// Promise arc cosine and arc sine within 1e-15; sine and cosine within (1 + |angle|) 2^-52, the
-//         error of an angle in turns. The same bits on every machine, as in trigonometry.hpp.
+// Promise arc cosine and arc sine within 1e-15; sine and cosine within (1 + |angle|) 2^-52, because
+//         angles are rounded in turns. The same bits on every machine, as in trigonometry.hpp.
 #pragma once
 
 #include <cmath>

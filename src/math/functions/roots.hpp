@@ -66,8 +66,7 @@ inline double cube_root_power(std::uint64_t third) {
 
 }  // namespace detail
 
-/// The cube root of any finite number, with its sign. Has no branches, so that loops are
-/// vectorised.
+/// The cube root of any finite number, with its sign. Has no branches, so loops vectorise.
 inline double cube_root(double value) {
     const double size = std::abs(value);
     const bool tiny = size < 0x1p-1022;

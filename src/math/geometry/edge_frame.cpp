@@ -10,8 +10,7 @@
 namespace stipple {
 namespace {
 
-/// Cross product from exact products, because areas of slivers are small differences of large
-/// numbers.
+/// Cross product from exact products: areas of slivers are small differences of large numbers.
 Vector3 exact_cross(const ExactEdge& e, const ExactEdge& f) {
     const auto product = [&](std::size_t i, std::size_t j, double sign) {
         return DoubleDouble{sign * e.high[i], sign * e.low[i]} * DoubleDouble{f.high[j], f.low[j]};

@@ -22,7 +22,7 @@ namespace stipple {
     return {point[0], point[1], point.size() > 2 ? point[2] : 0};
 }
 
-/// The difference high + low of two points, exact if they are within a factor of 2^53.
+/// The difference high + low of two points, exact unless it overflows.
 struct ExactEdge {
     Vector3 high;
     Vector3 low{};

@@ -47,7 +47,7 @@ struct AxialMoments {
     double across_along = 0;  ///< E x^2 (z - mean)
 };
 
-/// Moments of an axially symmetric unit vector with these E z, E z^2, E z^3.
+/// Moments of an axially symmetric unit vector, from the means of z, z^2 and z^3.
 AxialMoments direction_moments(double z, double zz, double zzz);
 
 /// Moments of center + size * frame.out(q), with q distributed like `shape`.

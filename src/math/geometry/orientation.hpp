@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Exact predicates in the plane: the side of a line that a point is on, and which of two edges that
-// cross the same row is on the left.
+// Exact predicates in the plane: the side of a line that a point is on, and which of two edges is
+// on the left where a row, a horizontal line, crosses both.
 //
 //     det = (a_x - c_x) (b_y - c_y) - (a_y - c_y) (b_x - c_x)
 //
@@ -65,8 +65,8 @@ inline UpwardEdge upward(PlanePoint p, PlanePoint q) {
     return is_before(p, q) ? UpwardEdge{p, q} : UpwardEdge{q, p};
 }
 
-/// Side of f that edge e is on: 1 left, -1 right, 0 if they overlap. Some row must cross both, and
-/// they must not cross each other.
+/// Returns 1 if edge e is left of edge f, -1 if right, 0 if they overlap. Some row must cross both
+/// edges, and they must not cross each other.
 inline int side_of_edge(const UpwardEdge& f, const UpwardEdge& e) {
     if (is_before(e.low, f.low)) return -side_of_edge(e, f);
     const int start = orientation(f.low, f.high, e.low);

@@ -2,7 +2,7 @@
 //
 // Areas in the plane in closed form.
 //
-// Promise errors of a few roundings of the polygon's extent squared.
+// Promise within a few units in the last place of the square of the polygon's extent.
 #pragma once
 
 #include <array>

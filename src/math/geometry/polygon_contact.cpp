@@ -46,8 +46,8 @@ Contact contact_between(const RingEdge& e, const RingEdge& f, bool crossing) {
     return e < f ? Contact{e, f, crossing} : Contact{f, e, crossing};
 }
 
-/// One sweep over all edges by rows: finds the first forbidden contact, and the touches that must
-/// cut edges.
+/// One sweep over all edges by rows: finds the first forbidden contact, and the touches at which
+/// edges must be cut.
 class ContactSweep {
   public:
     ContactSweep(const std::vector<Ring>& rings, const std::vector<RingSegment>& segments)
@@ -101,7 +101,7 @@ class ContactSweep {
         if (!contact) contact = contact_between(segments_[i].name, segments_[j].name, crossing);
     }
 
-    /// True if the edges are neighbours in their ring, or both parts of one edge.
+    /// True if the edges are neighbours in their ring, or are both parts of one edge.
     bool are_neighbors(const RingEdge& e, const RingEdge& f) const {
         if (e.ring != f.ring) return false;
         const std::size_t n = rings_[e.ring].size();
@@ -163,7 +163,7 @@ void cut_at(std::vector<RingSegment>& segments, std::vector<Touch> touches) {
     }
 }
 
-/// Half of a segment, seen from its end at a shared vertex.
+/// A segment directed away from its end `at`, a vertex shared with other segments.
 struct Arm {
     PlanePoint at;
     PlanePoint away;
@@ -224,7 +224,7 @@ std::optional<Contact> find_contact(const std::vector<Ring>& rings, const RunCon
     for (std::size_t r = 0; r < rings.size(); ++r)
         for (std::size_t i = 0; i < rings[r].size(); ++i)
             parts.push_back({rings[r][i], rings[r][(i + 1) % rings[r].size()], {r, i}});
-    constexpr int most_passes = 16;  // because rounding could create touches forever
+    constexpr int most_passes = 16;  // rounding could create new touches forever
     for (int pass = 0;; ++pass) {
         if (const auto contact = crossing_in_vertex(parts)) return contact;
         ContactSweep sweep(rings, parts);

@@ -45,7 +45,7 @@ struct RingSegment {
     RingEdge name;
 };
 
-/// Returns a forbidden contact of the rings, nullopt if there is none. Neighbours must differ.
+/// Returns a forbidden contact of the rings, or nullopt. Neighbouring vertices must differ.
 /// @param segments receives all edges, cut where rings touch, if there is no such contact
 std::optional<Contact> find_contact(const std::vector<Ring>& rings, const RunContext& run,
                                     std::vector<RingSegment>* segments = nullptr);

@@ -64,8 +64,7 @@ struct Basis {
     Vector v;
 };
 
-/// Best basis with low <= |u|^2 <= high and 0 <= u.y <= u.x; others follow by symmetry of the
-/// torus.
+/// Basis with the longest u, low <= |u|^2 <= high and 0 <= u.y <= u.x; other u follow by symmetry.
 std::optional<Basis> best_within(std::uint64_t low, std::uint64_t high, std::int64_t n) {
     std::optional<Basis> best;
     for (std::uint64_t a = floor_root(high, 2); 2 * a * a >= low; --a) {
@@ -131,7 +130,7 @@ std::optional<Vector> partner(Vector u, std::int64_t n, const Metric& metric) {
     return moved(above ? up : down);
 }
 
-/// Best basis with low <= |u|^2 <= high; others follow by reflection of the torus.
+/// Basis with the longest u, low <= |u|^2 <= high and u.x, u.y >= 0; other u follow by reflection.
 std::optional<Basis> best_within(double low, double high, std::int64_t n, const Metric& metric) {
     std::optional<Basis> best;
     const auto last = static_cast<std::int64_t>(std::sqrt(high / metric.x2));
@@ -175,8 +174,8 @@ TorusPacking densest_torus_packing(std::uint64_t n) {
     auto high = static_cast<std::uint64_t>(1.1547005383792515 * static_cast<double>(n));
     while (Wide{3} * (high + 1) * (high + 1) <= Wide{4} * n * n) ++high;
     while (Wide{3} * high * high > Wide{4} * n * n) --high;
-    // A shell of this width is expected to contain a lattice. The search ends, since (1, 0) is the
-    // shortest u of some lattice.
+    // Each range [low, high] of |u|^2 is expected to contain that of some lattice. The search ends,
+    // since (1, 0) is the shortest u of a lattice.
     const std::uint64_t width = 4 * floor_root(n, 2);
     for (;;) {
         const std::uint64_t low = high > width ? high - width : 1;

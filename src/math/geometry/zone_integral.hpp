@@ -9,8 +9,8 @@
 //
 // Between the cuts the integrand is smooth except for square roots at the ends (integrate_smooth).
 //
-// Cost    at least 31 values of f for each piece of z if f is level; otherwise, for each of these
-//         31 values of z, at least 31 values for each piece of phi.
+// Cost    at least 31 values of f between two cuts in z if f is level, which means constant between
+//         the circles. Otherwise at least 31 between two cuts in phi for each of these values of z.
 // Promise the returned error is that of the quadrature; 0 if f is level and there is no circle.
 #pragma once
 

@@ -9,8 +9,7 @@
 // with all parameters drawn from the seed. The light is a slightly skewed parallelogram at height 2
 // above the receiver, with sides of about 1. The card is a randomly rotated rectangle about halfway
 // up, which hides 10 to 90 % of the light. A point of the light is visible if the ray from the
-// origin to it misses the card; the area comes from projecting the card onto the light and
-// clipping.
+// origin to it misses the card; the area is that of the card's clipped projection onto the light.
 //
 // Shape   2 coordinates; values 0 and 1.
 // Promise areas to a few rounding errors.

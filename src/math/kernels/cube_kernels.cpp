@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Kernels with a known mean over the unit cube, products over the axes. On one axis, with t = |x -
-// y|,
+// Kernels on the unit cube with a known mean, products over the axes. For t = |x - y| on one axis:
 //
 //     periodic   1 + 2 pi^2 (1/6 - t + t^2)                    mean 1
 //     gaussian   exp(-t^2 / (2 h^2))      mean (erf(s x) + erf(s (1 - x))) sqrt(pi) / (2 s),
@@ -9,10 +8,10 @@
 //     matern     p(a) exp(-a), a = c t    mean (I(c x) + I(c (1 - x))) / c
 //     L2 kinds   k or 1 + k (math/l2/kinds.hpp)
 //
-// with I(A) the integral of p(a) exp(-a) from 0 to A, equal to g(0) - g(A) exp(-A) with the
-// polynomial g = p + g'. The mean over both arguments is 2/c (g(0) - (f(0) - f(c) exp(-c)) / c)
-// with f = g + f'. For small c, where this formula cancels, the mean is 2 sum_m q_m c^m / ((m + 1)
-// (m + 2)), with the series p(a) exp(-a) = sum_m q_m a^m.
+// with the bandwidth h, c = sqrt(2 nu) / h, and I(A) the integral of p(a) exp(-a) from 0 to A,
+// equal to g(0) - g(A) exp(-A) with the polynomial g = p + g'. The mean over both arguments is 2/c
+// (g(0) - (f(0) - f(c) exp(-c)) / c) with f = g + f'. For small c, where this formula cancels, the
+// mean is 2 sum_m q_m c^m / ((m + 1) (m + 2)), with the series p(a) exp(-a) = sum_m q_m a^m.
 //
 // Source  closed forms derived here; kernels: C. E. Rasmussen, C. K. I. Williams, "Gaussian
 //         Processes for Machine Learning" (2006), section 4.2.
@@ -271,7 +270,7 @@ class OfL2 final : public Kernel {
   private:
     static double number(std::int64_t coefficient) { return static_cast<double>(coefficient); }
 
-    /// Kernel on one axis as a function of x.
+    /// Kernel on one axis as a function of x, for this y.
     [[nodiscard]] AxisCurve curve_at(double y) const {
         const double bend = std::abs(y - 0.5);
         AxisCurve curve{

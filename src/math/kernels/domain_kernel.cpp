@@ -24,7 +24,7 @@ namespace {
 /// Distribution functions F_k of the coordinates of a domain.
 class Marginals {
   public:
-    /// A scratch point, and its image in the cube.
+    /// Scratch space: a point, and its image in the cube.
     struct Place {
         std::vector<double> point;
         std::vector<double> cube;
@@ -123,8 +123,8 @@ class DomainKernel final : public Kernel {
         return part * exponential(-a);
     }
 
-    /// Mean of the kernel on axis k over Y. Integrates over panels on which the kernel, and usually
-    /// F, is smooth; bisects panels with too large an error.
+    /// E k(|x - Y|) on axis k. Integrates over panels on which the kernel, and usually F, is
+    /// smooth; bisects panels with too large an error.
     [[nodiscard]] Estimate mean_of(std::size_t k, double x) const {
         run_.check_stop();
         Marginals::Place place = marginals_.here();
@@ -163,9 +163,9 @@ class DomainKernel final : public Kernel {
     Marginals marginals_;
     std::optional<unsigned> order_;
     RunContext run_;
-    double unit_;  ///< length scale of distances
+    double unit_;  ///< unit of the distances a in falling()
     double total_ = 1;
-    double error_ = 0;  ///< relative error of means without rounding
+    double error_ = 0;  ///< relative error of the means, without rounding errors
 };
 
 }  // namespace
@@ -180,8 +180,8 @@ bool has_independent_axes(const Domain& domain, std::span<const double> points) 
     std::vector<double> moved(d);
     std::vector<double> cube(d);
     std::vector<double> other(d);
-    // Moves each point along one coordinate at a time: the first to positions all over the box,
-    // then to the coordinate of the next point.
+    // Moves points along one coordinate at a time: the first 256 to positions spread over the box,
+    // the others to the coordinate of the next point.
     for (std::size_t i = 0; i < std::max(places, std::min(count, most)); ++i) {
         const auto point = points.subspan(i % count * d, d);
         domain.to_cube(point, cube);

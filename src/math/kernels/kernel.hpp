@@ -94,7 +94,7 @@ KernelPtr stein(std::size_t dimension, double bandwidth);
 /// function of one of them. Tested by moving the given points along single coordinates.
 bool has_independent_axes(const Domain& domain, std::span<const double> points);
 
-/// Kernels for arbitrary points whose target is a domain with independent axes.
+/// Gaussian or Matern kernel whose target is a domain with independent axes.
 /// @param order nullopt for the Gaussian kernel, otherwise the order of Matern's
 KernelPtr of_domain(DomainPtr domain, double bandwidth, std::optional<unsigned> order,
                     const RunContext& run);
@@ -126,8 +126,8 @@ struct MedianDistance {
     bool of_all = true;       ///< false if the pairs are a random sample, always the same
 };
 
-/// Median distance between two of the union of `points` and `others`, from the first `dimension`
-/// coordinates. Uses all pairs, or a sample of 2^22 if there are more.
+/// Median distance between two points of the union of `points` and `others`, from the first
+/// `dimension` coordinates. Uses all pairs, or a sample of 2^22 if there are more.
 MedianDistance median_distance(const Columns& points, const Columns& others, std::size_t dimension,
                                const RunContext& run = {});
 

@@ -31,13 +31,12 @@ namespace {
 
 using Integer = boost::multiprecision::cpp_int;
 
-/// Binary places of the upper parts of values: sums of 2^37 values below 1 fit 64 bits.
+/// Binary places of the upper parts of values below 1: sums of 2^37 of them fit 64 bits.
 constexpr int high_places = 26;
-/// Binary places of the remainders, which have at most 2^43 units: sums of 2^20 fit 64 bits.
+/// Binary places of the remainders. These are at most 2^43 units: sums of 2^20 fit 64 bits.
 constexpr int low_places = 70;
 
-/// Sum of numbers of at most 2^exponent in absolute value, in multiples of 2^(exponent -
-/// low_places).
+/// Sum of numbers x, |x| <= 2^exponent, in multiples of 2^(exponent - low_places).
 class FixedSum {
   public:
     explicit FixedSum(int exponent) : scale_(std::ldexp(1.0, -exponent)) {}

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Factors of L2 kernels, their products and sums, for as many pairs of points as a vector V holds.
-// Each is a double and an error term. Not a standalone header: core/machine/vector_widths.hpp
-// includes it in block_pairs.cpp, once for every STIPPLE_VECTOR_BITS.
+// Each of these numbers is a double and an error term. Not a standalone header:
+// core/machine/vector_widths.hpp includes it in block_pairs.cpp, once for every
+// STIPPLE_VECTOR_BITS.
 //
 // The factors are those of pair_sums.cpp, with parabolas about their vertices:
 //
@@ -16,8 +17,9 @@
 //
 //     1 + max(min(x - 1/2, y - 1/2), min(1/2 - x, 1/2 - y), 0)
 //
-// The numbers of a block's points are stored by column. `row` points to the first point of a group
-// of rows in its block; `block` points to the first of the columns' points that fill a vector.
+// One point of a pair is in a block of rows, the other in a block of columns; the numbers of a
+// block's points are stored by column. `row` points to the first of a group of points in the block
+// of rows, `block` to the first of a vector of points in the block of columns.
 
 constexpr std::size_t lanes = STIPPLE_VECTOR_BITS / 64;
 using V [[gnu::vector_size(8 * lanes)]] = double;
@@ -167,7 +169,7 @@ struct TwoSided {
     }
 };
 
-/// A parabola in the distance.
+/// A parabola in |x - y|.
 struct Bernoulli {
     static constexpr std::size_t columns_of_factor = 2;
     static constexpr bool separates = false;
@@ -181,7 +183,7 @@ struct Bernoulli {
     }
 };
 
-/// A function that decreases linearly with the distance.
+/// A function that decreases linearly with |x - y|.
 struct Linear {
     static constexpr std::size_t columns_of_factor = 2;
     static constexpr bool separates = false;
@@ -195,8 +197,8 @@ struct Linear {
     }
 };
 
-/// Mixture kernel: a parabola in the distance plus one number for each of the two points; the sum
-/// of these numbers has no rounding error.
+/// Mixture kernel: a parabola in |x - y| plus one number for each of the two points; the sum of the
+/// two numbers has no rounding error.
 struct Mixture {
     static constexpr std::size_t columns_of_factor = 4;
     static constexpr bool separates = false;
@@ -281,8 +283,7 @@ STIPPLE_INLINE Compensated<Group> first_factor(const GroupPair& g, std::size_t k
     return {value, more - (value - one)};
 }
 
-/// Products of the factors of a group of rows with a vector of the block's points, from its k-th
-/// on.
+/// Products of the factors of a group of rows with a vector of points, from the block's k-th on.
 template <class Kernel>
 STIPPLE_INLINE Compensated<Group> products(const GroupPair& g, std::size_t k) {
     Compensated<Group> p = first_factor<Kernel>(g, k);
@@ -295,7 +296,8 @@ STIPPLE_INLINE Compensated<Group> products(const GroupPair& g, std::size_t k) {
 }
 
 /// Adds the products of a group of rows with a block to the sums from `lane` on. Each lane has the
-/// same sum for vectors of any width. Rows with products of their own are summed separately.
+/// same sum for vectors of any width. Rows that have products of their own are summed separately,
+/// and then multiplied by these.
 template <class Kernel>
 STIPPLE_INLINE void add_lanes(const GroupPair& g, std::size_t lane, LaneSums& sums) {
     constexpr std::size_t apart = Kernel::separates ? group : 1;

@@ -12,7 +12,7 @@
 namespace stipple::l2 {
 namespace {
 
-constexpr std::size_t group = 4;  ///< rows that are multiplied together
+constexpr std::size_t group = 4;  ///< number of rows that are processed together
 /// Number of blocks whose sums stay in lanes before they are added to the total.
 constexpr std::size_t batch_size = 16;
 

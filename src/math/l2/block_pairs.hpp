@@ -25,8 +25,7 @@ struct AxisConstants {
     double base = 0;
     double base_error = 0;
     double offset = 0;  ///< amount added to the base, and subtracted from the factor again
-    /// Value of |x - y| at the vertex of a parabola, or in the middle of its range for linear
-    /// factors.
+    /// |x - y| at the vertex of a parabola, or in the middle of its range for linear factors.
     double vertex = 0;
 };
 
@@ -61,7 +60,7 @@ class BlockTable {
     }
 
   private:
-    /// Doubles in a cache line, so that no vector spans two.
+    /// A cache line of doubles; vectors aligned to it never span two lines.
     struct alignas(64) Line {
         double at[max_lanes] = {};
     };

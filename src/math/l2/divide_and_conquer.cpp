@@ -13,17 +13,17 @@
 //     extreme    x                        1 - y
 //     centered   1 + w max(x - 1/2, 0)    1 + w max(1/2 - y, 0)
 //
-// All kernels of kinds.hpp are sums of three products. With c = x - 1/2, a(c) a linear combination
-// of 1, c, c^2 and |c|, and g = sqrt(-s11) c,
+// All kernels of kinds.hpp are sums of three products. With c = x - 1/2, c' = y - 1/2, a linear
+// combination a(c) of 1, c, c^2 and |c|, and g(c) = sqrt(-s11) c,
 //
 //     K = (a(c) - sigma c) 1 + 1 (a(c') + sigma c') - g(c) g(c')   for c <= c'.
 //
-// Points are halved along the last axis. A pair from different halves has the factors L of its
-// lower point and U of its upper one. With these as weights of the points, the problem has one axis
-// less, and its pairs are between points of two colors: the halves. Halving such points along their
-// next axis gives two problems, between lower points of one color and upper points of the other. On
-// the last axis only running sums remain, computed while points are merged along it. Small sets are
-// summed pair by pair.
+// Points are halved along the last axis. A pair from different halves has the factors L(lower
+// point) and U(upper point). With these factors as weights of the points, the problem has one axis
+// less, and its pairs are between points of two colors, one color for each half. Halving such
+// points along their next axis gives two problems, between lower points of one color and upper
+// points of the other. On the last axis only running sums remain, computed while points are merged
+// along it. Small sets are summed pair by pair.
 //
 // Numbers are fixed-point with 90 fractional bits.
 //
@@ -120,7 +120,7 @@ class Parabola {
         return fixed_[0] + times(fixed_[1] + times(fixed_[2], c), c) +
                times(fixed_[3], c < 0 ? -c : c);
     }
-    /// Upper bound on its absolute values in the cube.
+    /// Upper bound on |at(x - 1/2)| for x in [0, 1].
     [[nodiscard]] double most() const {
         return static_cast<double>(abs(quads_[0]) + abs(quads_[1]) / 2 + abs(quads_[2]) / 4 +
                                    abs(quads_[3]) / 2);
@@ -135,9 +135,9 @@ class Parabola {
 class OneProduct {
   public:
     static constexpr std::size_t rank = 1;
-    static constexpr std::size_t few = 8;  ///< up to this many points are summed pair by pair
+    static constexpr std::size_t few = 8;  ///< up to `few` points are summed pair by pair
 
-    /// Data of a point for the factor.
+    /// Data of a point from which its factors are computed.
     using Terms = Fixed;  ///< the coordinate minus 1/2
     using Side = std::array<Fixed, rank>;
 
@@ -234,7 +234,7 @@ struct Item {
     /// For one product per kernel: product of the factors on the axes halved so far.
     Fixed weight = unity;
     std::uint32_t point;      ///< index in the order of the last axis
-    std::uint32_t upper = 0;  ///< bit set of the axes on which it was in an upper half
+    std::uint32_t upper = 0;  ///< bit set of the axes on which the point was in an upper half
 
     [[nodiscard]] bool is_upper(std::size_t axis) const { return (upper >> axis & 1) != 0; }
 };
@@ -270,14 +270,14 @@ class Division {
     static constexpr std::size_t rank = Axis::rank;
     static constexpr std::size_t many = std::size_t{1} << 12;
     using Side = typename Axis::Side;
-    /// Products of a term from each axis after the first.
+    /// Products of one term from each axis except the first.
     using Weights = std::array<Fixed, rank * rank>;
     /// Sums over the points passed so far, by the terms of the first axis.
     using Passed = std::array<Weights, rank>;
 
-    /// Adds the pairs of items in [first, last) of level r that are in different halves of axis r
-    /// (on the highest level, all pairs). Items are sorted by axis r - 1 before and by axis r - 2
-    /// afterwards.
+    /// Adds the products of the pairs of items in [first, last) of level r that are in different
+    /// halves of axis r (on the highest level, of all pairs). Items are sorted by axis r - 1 before
+    /// and by axis r - 2 afterwards.
     void solve(std::size_t r, std::size_t first, std::size_t last, FixedSum& sum) {
         const std::size_t size = last - first;
         if (size <= Axis::few) return take_pairs(r, first, last, sum);
@@ -370,7 +370,7 @@ class Division {
 
     /// Merges two halves along the first axis, summing instead of distributing the items.
     void merge_and_sum(std::size_t first, std::size_t last, FixedSum& sum) {
-        Passed passed[2][2] = {};  // by side on the third and second axes
+        Passed passed[2][2] = {};  // by halves of the third and second axes
         FixedSum mine;
         merge(2, first, last, [&](const Item& item, bool upper) {
             const bool color = item.is_upper(2);
@@ -492,8 +492,8 @@ Square square_of(const PointSet& points, Kind kind, const AxisWeights& weights,
     const Quad count = n;
     const Quad squared = total - 2 * means.value() / count + pairs / (count * count);
     const auto value = squared.convert_to<double>();
-    // A pair takes about ten steps, each with an error of 2^-91 of its factors. The slope of a
-    // coordinate is at most four times the largest product.
+    // A pair takes about ten steps, each with an error of 2^-91 of its factors. The derivative of a
+    // product by a coordinate is at most four times the largest product.
     const double most = most_of(axes);
     const double moved = 0x1p-62 * most * static_cast<double>(rounded) / static_cast<double>(n);
     return {value, 0x1p-52 * std::abs(value) + 0x1p-85 * most + moved};
@@ -523,7 +523,7 @@ bool divides(std::size_t dimension, Kind kind, const AxisWeights& weights) {
 }
 
 bool divide_wins(std::size_t count, std::size_t dimension, Kind kind) {
-    // Measured; star and modified have half as many factors per pair.
+    // Counts found by measurement; star and modified have half as many factors per pair.
     if (!is_one_product(dimension, kind, {}))
         return count >= 50'000 && count <= std::size_t{1} << 23;
     if (count >= std::size_t{1} << 27) return false;  // sums could overflow

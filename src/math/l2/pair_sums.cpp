@@ -8,9 +8,10 @@
 // compensated: every factor and product is a double with an error term, and only the error terms
 // are rounded. So all but a fraction of 2^-80 of the sum over pairs may cancel.
 //
-// On each axis K is one of these, times a constant, with t = |x - y|:
+// On each axis K is one of these, times a constant, with t = |x - y|, a constant a, and numbers g_x
+// and h_x of the point x:
 //
-//     min(g_x, g_y)                     star, modified; two of them: extreme, centered
+//     min(g_x, g_y)                     star, modified; product of two: extreme, centered
 //     a + t (t - 1)                     periodic, wraparound, diaphony
 //     h_x + h_y + t (t - 3/2)           mixture
 //     a - t                             average, symmetric
@@ -22,9 +23,10 @@
 //
 // Shape   n x d points in [0, 1].
 // Cost    n^2 d / 2 factors, fewer if blocks of points are separated on an axis. On one core with
-//         512-bit vectors 0.25 ns each for the star kernel, 0.2 for the centered one (half as much
-//         again if coordinates are not multiples of 2^-53), 0.6 for the wraparound and 0.75 for the
-//         mixture one; with 256-bit vectors twice as long. Needs a fused multiply-add instruction.
+//         512-bit vectors each takes 0.25 ns for the star kernel, 0.2 for the centered one (1.5
+//         times as long if coordinates are not multiples of 2^-53), 0.6 for the wraparound and 0.75
+//         for the mixture one; with 256-bit vectors twice as long. Needs a fused multiply-add
+//         instruction.
 // Promise the same result for any number of threads and any vector width. `error` bounds the
 //         rounding errors.
 // Source  T. Ogita, S. M. Rump, S. Oishi, SIAM J. Sci. Comput. 26 (2005) 1955-1988,
@@ -117,7 +119,7 @@ class FactorForm {
         return factors() == 2 ? one * one : one;
     }
 
-    /// Number added to a factor and subtracted again, so that it does not come near 0 in between.
+    /// Number added to a factor and subtracted again, so that no intermediate sum comes near 0.
     [[nodiscard]] double offset() const {
         const bool small =
             (is_of_distance() && base_ < reach()) || (is_one_plus_minima() && base_ < Quad(0.5));
@@ -179,7 +181,7 @@ class FactorForm {
     }
 
   private:
-    /// Maximum difference of a factor of the distance from base_.
+    /// Maximum of |factor - base_| for factors that depend on the distance t.
     [[nodiscard]] double reach() const { return is_linear() ? 0.5 : 0.25; }
     [[nodiscard]] double vertex() const { return kind_ == Kind::mixture ? 0.75 : 0.5; }
 
@@ -354,7 +356,7 @@ void halve(std::span<std::size_t> order, const PointSet& points, const Axes& axe
 }
 
 /// Order of the points in which blocks are separated on as many axes as possible. Sets are halved
-/// along one axis after the other. If `sides` matter, the first cut on each axis is at 1/2.
+/// along one axis after the other; if `sides`, the first cut on each axis is at 1/2.
 std::vector<std::size_t> block_order(const PointSet& points, const Axes& axes, bool sides) {
     std::vector<std::size_t> order(points.count());
     std::iota(order.begin(), order.end(), std::size_t{0});

@@ -103,8 +103,8 @@ void add_features(std::array<LongSum, 3>& sums, Uint128 a, const Features& phi) 
     sums[2].add_product(a, phi.from_middle);
 }
 
-/// Sums over points in order of t: i is the number of points before, T and W are sums of t and w
-/// over these.
+/// Sums over points in order of t: i is the number of points before, T and W are the sums of t and
+/// w over these i points.
 struct AxisSums {
     std::array<std::array<LongSum, 3>, 4> moments;  ///< phi_p(t) phi_q(w), q > 0
     std::array<LongSum, 3> alone;                   ///< phi_p(t), p > 0
@@ -343,8 +343,7 @@ double quotient(const Integer& value, std::size_t n, unsigned axes) {
     return Fraction(value, below).convert_to<double>();
 }
 
-/// Scales a value of some degree in the coordinates to degree 2 on each axis, so that all can be
-/// added.
+/// Scales a value of some degree in the coordinates to degree 2 on each axis, for additions.
 Integer scaled(const Integer& value, unsigned degrees, unsigned axes) {
     return value << (fraction_bits * (2 * axes - degrees));
 }

@@ -22,8 +22,7 @@ Square pair_square(const PointSet& points, Kind kind, const AxisWeights& weights
 /// Bytes that pair_square() needs.
 double pair_memory(std::size_t count, std::size_t dimension);
 
-/// Sums over the points of a set (see planar.cpp), with phi_p scaled by 2^63 to the power of its
-/// degree.
+/// Sums over the points of a set (see planar.cpp); phi_p of degree k is multiplied by 2^(63 k).
 struct PlaneSums {
     using Integer = boost::multiprecision::cpp_int;
     using Symmetric = std::array<Integer, 5>;  ///< V_pq: 00, 01, 02, 03, 11
@@ -37,8 +36,7 @@ struct PlaneSums {
 /// Sums over points with one or two coordinates in [0, 1]; a missing second coordinate is 0.
 PlaneSums plane_sums(const PointSet& points, const RunContext& run);
 
-/// Squared discrepancy: for each projection the double nearest to the exact value, or a neighbor of
-/// it.
+/// Squared discrepancy: for each projection the double nearest to the exact value, or the next.
 double plane_square(const PlaneSums& sums, std::size_t dimension, Kind kind,
                     const AxisWeights& weights);
 

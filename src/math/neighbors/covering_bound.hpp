@@ -10,7 +10,7 @@
 // maximum is at a corner. The best w comes from the simplex method, with a basis of D + 1 columns
 // for points and for the two signs of terms in the last sum.
 //
-// Shape    D dimensions, or for D = 0 a number given at run time, up to 32; at least one point.
+// Shape    D dimensions, or for D = 0 up to 32, given at run time; at least one point.
 // Cost     about 2 D steps of O(D^2 + points D).
 // Promise  never below the maximum, except by rounding. Exceeds it (as a squared distance) by at
 //          most the sum of h_k^2 plus the tolerance. So the excess is quadratic in the box's size.
@@ -34,7 +34,7 @@ class CoveringBound {
   public:
     using Point = std::array<double, most>;  ///< only the first D coordinates are used
 
-    /// @param tolerance relative, of the squared distance
+    /// @param tolerance relative tolerance of the squared distance
     explicit CoveringBound(std::size_t dimension = D, double tolerance = 1e-3)
         : dimension_(dimension), tolerance_(tolerance) {}
 
@@ -48,7 +48,7 @@ class CoveringBound {
         points_.push_back({q, norm});
     }
 
-    /// Bound on the squared distance for a box with these half sides.
+    /// Bound on the squared distance for the box with half sides h_k = half[k].
     double squared(const Point& half) {
         begin(half);
         for (std::size_t step = 0; step < 20 * rows(); ++step)
@@ -56,8 +56,8 @@ class CoveringBound {
         return value(half);
     }
 
-    /// Point of that box, relative to its centre, at which the last bound is reached up to the sum
-    /// of h_k^2.
+    /// Point of the box, relative to its centre, where the squared distance is at least the last
+    /// bound minus the sum of h_k^2.
     [[nodiscard]] Point place(const Point& half) const {
         Point place{};
         for (std::size_t k = 0; k < d(); ++k)

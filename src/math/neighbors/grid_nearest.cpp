@@ -18,8 +18,7 @@ constexpr double points_in_cell = 2;
 /// is 3; a tree becomes faster at about ten times as many.
 constexpr double crowded = 24;
 
-/// Side of cubes such that `cells` of them fill the box. Flat directions have a single layer of
-/// cubes.
+/// Side of cubes such that `cells` of them fill the box. Flat directions have one layer.
 double side_of_cells(const Box& box, double cells) {
     std::vector<double> sides;
     for (std::size_t k = 0; k < box.dimension(); ++k) sides.push_back(box.extent(k));

@@ -19,8 +19,7 @@
 
 namespace stipple {
 
-/// Returns nullopt if a grid is unsuitable: in other dimensions, or if points are crowded into few
-/// cells.
+/// Returns nullopt in other dimensions, or if points are crowded into few cells.
 /// @throws Error(cancelled)
 std::optional<std::vector<Neighbor>> all_nearest_by_grid(std::span<const double> rows,
                                                          const Box& box, bool torus,

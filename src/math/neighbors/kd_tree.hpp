@@ -11,7 +11,7 @@
 //
 // Shape    n < 2^32 points, d >= 1 (1 to 4 are fastest; in hundreds of dimensions little can be
 //          skipped, and a query costs O(n d)). On the torus, points and positions are in one box
-//          with these sides, including its upper faces.
+//          with the sides `sides`, including its upper faces.
 // Cost     O(n log n (log n + d)) to build; O(log n) per query in few dimensions. For 10^6 points
 //          in 2-D on one core: 0.5 s to build, 0.4 s for the nearest neighbours of all; 32 bytes
 //          per point, and 24 more while building.
@@ -44,7 +44,7 @@ struct Neighbor {
     }
 };
 
-/// How the distances along the axes are combined.
+/// Rule by which the distances along the axes are combined.
 enum class Norm { euclidean, manhattan, chebyshev };
 
 /// Squared distance of two positions, as above.
@@ -65,7 +65,8 @@ class KdTree {
     [[nodiscard]] std::size_t dimension() const { return dimension_; }
     [[nodiscard]] bool torus() const { return !sides_.empty(); }
 
-    /// Points by rank, and their indices. Neighbours mostly have close ranks.
+    /// Coordinates and index of a point by rank, its position in the order of the leaves.
+    /// Neighbours mostly have close ranks.
     [[nodiscard]] const double* row(std::size_t rank) const {
         return rows_.data() + rank * dimension_;
     }

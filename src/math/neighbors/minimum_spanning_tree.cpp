@@ -136,7 +136,7 @@ class Growth {
     const RunContext& run_;
     Parts parts_;
     KdTree::Groups groups_;
-    std::vector<Neighbor> nearest_;  ///< by rank; without an index, a lower bound on the distance
+    std::vector<Neighbor> nearest_;  ///< by rank; with index `none`, a lower bound on the distance
     std::vector<Candidate> best_;    ///< by root of the part
     std::vector<std::atomic<double>> bounds_;
 };

@@ -3,9 +3,9 @@
 // Minimum spanning tree of n points: the n - 1 edges that connect them with the smallest total
 // length. Ties may affect which edges it has, but not their lengths.
 //
-//     near_spanning_tree     every part takes the shortest edge to another one, by a k-d tree
-//                            that skips points of the same part (Boruvka).
-//     plain_spanning_tree    a single part takes the nearest outside point, n times (Prim).
+//     near_spanning_tree     every component takes the shortest edge to another, by a k-d tree
+//                            that skips points of the same component (Boruvka).
+//     plain_spanning_tree    a single component takes the nearest outside point, n times (Prim).
 //
 // Shape   1 <= n < 2^32 points. `sides` are those of the torus, as for KdTree; empty for no torus.
 //         Duplicates are joined by edges of length 0.

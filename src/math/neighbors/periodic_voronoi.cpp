@@ -141,8 +141,8 @@ PeriodicVoronoi::PeriodicVoronoi(Vec2 sides, bool torus, std::size_t expected, b
                                  const RunContext& run)
     : sides_(sides), torus_(torus) {
     grow(sites_, expected, run);
-    // Cell size such that a ring of cells around a site's own contains most of its neighbours, and
-    // few other sites.
+    // Grid cells of such a size that the ring of cells around a site's own cell contains most of
+    // the site's neighbours, and few other sites.
     const double sites_a_cell = uneven ? 0.5 : 2;
     const double cells = std::max(1.0, static_cast<double>(expected) / sites_a_cell);
     const double size = std::sqrt(sides.x * sides.y / cells);

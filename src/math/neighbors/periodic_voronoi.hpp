@@ -47,7 +47,7 @@ struct CellCorner {
     static constexpr std::uint32_t wall = 0xffff'ffff;
 
     Vec2 at;        ///< relative to the cell's site
-    Vec2 neighbor;  ///< site beyond the edge, relative to this one; mirror image for a wall
+    Vec2 neighbor;  ///< site beyond the edge, relative to the cell's; its mirror image for a wall
     std::uint32_t site = wall;  ///< index of the neighbor; of the cell's site for a copy of it
 };
 
@@ -105,8 +105,7 @@ class VoronoiCell {
 
 class PeriodicVoronoi {
   public:
-    /// An empty rectangle [0, x] x [0, y], with room for `expected` sites, evenly spread unless
-    /// `uneven`.
+    /// An empty rectangle from 0 to `sides`, for `expected` sites, evenly spread unless `uneven`.
     PeriodicVoronoi(Vec2 sides, bool torus, std::size_t expected, bool uneven = false,
                     const RunContext& run = {});
 
@@ -134,7 +133,7 @@ class PeriodicVoronoi {
     /// `needed`. Thread-safe.
     void cut_cell(std::size_t i, VoronoiCell& cell, double needed = 0) const;
 
-    /// Moves `at` by whole sides into [0, side) on the torus, otherwise to the nearest wall if
+    /// Moves `at` by whole sides into [0, side) on the torus; otherwise to the nearest wall if
     /// outside.
     [[nodiscard]] Vec2 inside(Vec2 at) const;
 

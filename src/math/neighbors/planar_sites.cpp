@@ -17,8 +17,7 @@ struct Place {
     auto operator<=>(const Place&) const = default;
 };
 
-/// Coordinates relative to the low corner; on the torus, points on upper faces move to the lower
-/// ones.
+/// Coordinates relative to the low corner; on the torus, points on upper faces move to lower ones.
 std::vector<double> seen_from_corner(std::span<const double> rows, const Box& box, bool torus) {
     std::vector<double> seen(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -66,7 +65,7 @@ void PlanarCells::cut_by_neighbors(std::size_t i, VoronoiCell& cell) const {
     const Vec2 at = sites_.at(i);
     PeriodicVoronoi::start(sites_.sides, sites_.torus, at, static_cast<std::uint32_t>(i), cell);
     std::vector<CellCorner> planes(cell.corners().begin(), cell.corners().end());
-    // For a site on a wall, the wall is treated as slightly beyond it.
+    // For a site on a wall, the wall is treated as slightly beyond the site.
     constexpr std::array<Vec2, 4> outward = {Vec2{0, -1}, Vec2{1, 0}, Vec2{0, 1}, Vec2{-1, 0}};
     const double least = 1e-18 * (sites_.sides.x + sites_.sides.y);
     for (std::size_t k = 0; k < planes.size(); ++k)

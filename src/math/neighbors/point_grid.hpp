@@ -77,7 +77,7 @@ class GridFrame {
     }
 
   private:
-    /// Divides each side into pieces; returns the number of cells.
+    /// Divides each side into lengths of at least `cell`; returns the number of cells.
     double divide(double cell) {
         double cells = 1;
         for (std::size_t k = 0; k < D; ++k) {
@@ -95,8 +95,8 @@ class GridFrame {
         return static_cast<std::int64_t>(std::clamp(place, 0.0, last));
     }
 
-    /// Lower bound on the squared distance in direction k from a position to cell `cell`, which may
-    /// be outside the box.
+    /// Lower bound on the squared distance in direction k from position `place` to cell index
+    /// `cell`. Either may be outside the box.
     [[nodiscard]] double gap(std::size_t k, double place, std::int64_t cell) const {
         const auto low = static_cast<double>(cell);
         place = std::clamp(place, 0.0, static_cast<double>(counts_[k]));  // moved to the box
@@ -106,8 +106,8 @@ class GridFrame {
         return distance * distance;
     }
 
-    /// Cells [from, to] in direction k within the square root of `squared`. On the torus they may
-    /// be outside the box, but are never more than there are cells.
+    /// Indices [from, to] of cells in direction k within sqrt(squared) of a position. On the torus
+    /// they may be outside [0, counts_[k]), but are never more than there are cells.
     struct Window {
         std::int64_t from;
         std::int64_t to;
@@ -193,8 +193,7 @@ class SortedPoints {
     [[nodiscard]] std::uint32_t start(std::size_t c) const { return starts_[c]; }
 
     /// For each s in [from, to), calls visit(s, first, last) for ranges of points after s that
-    /// contain all those within the radius of s. So every pair is visited once, from its lower
-    /// point.
+    /// contain all those within the radius of s. So every pair is visited once.
     template <class Visit>
     void visit_pairs(std::size_t from, std::size_t to, double radius, const RunContext& run,
                      const Visit& visit) const {
@@ -234,8 +233,7 @@ class SortedPoints {
     void visit(const double* p, double radius, Visit&& visit) const {
         const double most = radius * radius;
         frame_.visit(p, radius, [&](std::size_t first, std::size_t last) {
-            // Hits are stored before they are visited, because a branch would often be
-            // mispredicted.
+            // Hits are stored before they are visited: a branch would often be mispredicted.
             constexpr std::size_t some = 32;
             std::array<double, some> squares;
             std::array<std::size_t, some> hits;

@@ -13,11 +13,11 @@ namespace {
 
 constexpr double sigma = 1.5;  // in cells
 
-/// Part of an interval of cells, which wraps around the torus in at most two parts.
+/// One of the two ranges into which an interval of cells is split where it wraps around the torus.
 struct Piece {
-    std::size_t first = 0;   ///< coordinate of the first cell
+    std::size_t first = 0;   ///< coordinate of the range's first cell
     std::size_t length = 0;  ///< may be 0
-    std::size_t offset = 0;  ///< offset within the interval
+    std::size_t offset = 0;  ///< offset of that cell within the interval
 };
 
 std::array<Piece, 2> wrapped(std::size_t center, std::size_t before, std::size_t length,
@@ -91,8 +91,8 @@ class Smallest {
     std::vector<Level> levels_;
 };
 
-/// One factor of the kernel: its values at distances in columns, from -before on, including all
-/// periodic copies.
+/// Factor of the kernel on one axis: its values at distances -before, 1 - before, ... in cells,
+/// each summed over all periodic copies.
 struct Profile {
     std::size_t before = 0;
     std::vector<double> values = {};
@@ -226,8 +226,7 @@ class Pattern {
     Smallest clusters_;
 };
 
-/// Fills `count` cells at random, and moves the tightest clusters to the largest voids until none
-/// moves.
+/// Fills `count` cells at random; moves tightest clusters to largest voids until none moves.
 void start(Pattern& pattern, std::size_t cells, std::size_t count, std::uint64_t seed,
            const RunContext& run) {
     const Rng rng(seed, 0);

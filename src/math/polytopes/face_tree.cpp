@@ -77,7 +77,7 @@ class FaceTree::Builder {
         std::vector<std::uint32_t> members;  ///< indices of vertices, increasing
         PlaneSet planes;                     ///< planes that contain all members
     };
-    /// A facet of a face, and its position.
+    /// A facet of a face, and the plane of the facet within the face.
     struct Part {
         Facet facet;
         PolytopePoint normal;  ///< unit vector within the face, from the facet towards the apex
@@ -140,8 +140,8 @@ class FaceTree::Builder {
         return static_cast<std::uint32_t>(number);
     }
 
-    /// Describes a facet, with its volume as its share. The space of the facet is spanned by the
-    /// apexes along the path through the heaviest facets, because they are far from each other.
+    /// Describes a facet, with its volume in place of its share. The facet's space is spanned by
+    /// the apexes along the path through the heaviest facets, because these are far apart.
     Part part_of(std::size_t apex, std::uint32_t number) const {
         const std::size_t d = tree_.d_;
         std::vector<PolytopePoint> span;  // orthonormal directions from the facet's apex
@@ -212,8 +212,8 @@ FaceTree::FaceTree(const PolytopeVertices& polytope) : d_(polytope.dimension) {
     Builder(*this, polytope).build();
 }
 
-/// Selects the facet of a face for u in [0, 1), and replaces u by its relative position within the
-/// facet's share.
+/// Selects the facet of a face for u in [0, 1); replaces u by its relative position in the facet's
+/// share.
 const FaceTree::Facet& FaceTree::chosen(std::size_t face, double& u) const {
     const auto all = facets(face);
     std::size_t i = 0;

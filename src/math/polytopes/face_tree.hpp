@@ -51,7 +51,7 @@ class FaceTree {
     void forward(std::span<double* const> columns, std::size_t rows) const;
 
     /// Maps a point of the polytope to the cube; a point slightly outside by rounding is treated as
-    /// the nearest.
+    /// the nearest point inside.
     void inverse(const double* point, double* cube) const;
 
     [[nodiscard]] Moments moments() const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The points with normal . x <= bound.
+// The half-space of all points x with normal . x <= bound.
 #pragma once
 
 #include <string>

@@ -20,7 +20,7 @@ bool joins(const HalfSpace& cut, std::size_t k) { return cut.normal[k] != 0; }
 /// Groups of coordinates that inequalities couple, directly or through others. Coordinates without
 /// an inequality are in no group.
 std::vector<std::vector<std::size_t>> joined(std::size_t d, const std::vector<HalfSpace>& cuts) {
-    std::vector<std::size_t> first(d);  // smallest coordinate in the group of each
+    std::vector<std::size_t> first(d);  // for each: smallest coordinate of its group
     std::iota(first.begin(), first.end(), std::size_t{0});
     std::vector<bool> named(d);
     for (const HalfSpace& cut : cuts) {
@@ -49,8 +49,8 @@ std::vector<std::vector<std::size_t>> joined(std::size_t d, const std::vector<Ha
 /// limit for flat polytopes.
 constexpr double finest = 1e-3;
 
-/// Cuts off the part of a box far outside a half-space, if that is more than half of a range.
-/// Returns whether the box changed.
+/// Shortens a side of a box if more than half of it is outside a half-space. Returns whether the
+/// box changed.
 bool tighten(Box& box, const HalfSpace& cut) {
     const std::size_t d = box.dimension();
     double least = 0;  // minimum of normal . x over the box
@@ -110,8 +110,8 @@ FaceTree checked_tree(PolytopeVertices vertices) {
     return tree;
 }
 
-/// Rounding error in the distance of a plane from a point on it: the numbers of the plane and of
-/// the box are rounded.
+/// Rounding error in the distance of a plane from a point on it: the plane's coefficients and the
+/// box's ends are rounded.
 double rounding_of(const PolytopePlane& plane, const Box& frame) {
     double sum = 1;
     for (std::size_t k = 0; k < frame.dimension(); ++k) {

@@ -6,9 +6,9 @@
 // at most 12 dimensions, and the others are intervals.
 //
 // A group is computed in the frame of a box not much larger than itself, so that sizes may differ
-// by any factor. A polytope thinner than 1e-11 of that box is flat. Inequalities that cut nothing
-// off, touch a face, or repeat others up to rounding have no effect. If two inequalities differ by
-// 1e-13 to 1e-9, vertices may be lost in rounding; this is detected and causes an error.
+// by any factor. A polytope thinner than 1e-11 of that box counts as flat. Inequalities that cut
+// nothing off, touch a face, or repeat others up to rounding have no effect. If two inequalities
+// differ by 1e-13 to 1e-9, vertices may be lost in rounding; this is detected and causes an error.
 #pragma once
 
 #include <span>

@@ -28,7 +28,7 @@ DoubleDouble full_quotient(const DoubleDouble& a, const DoubleDouble& b) {
     return exact_sum(first, second) + DoubleDouble{(rest - b * DoubleDouble{second}).high / b.high};
 }
 
-/// A half-space scaled by a power of 2, so that its numbers are exact and of order 1.
+/// A half-space scaled by a power of 2, so that its coefficients are exact and of order 1.
 struct Cut {
     PolytopePoint normal{};
     double bound = 0;
@@ -48,7 +48,7 @@ struct Cut {
         length = std::sqrt(square);
     }
 
-    /// Distance of y inside the plane, in units of 1 / length.
+    /// Distance of y from the plane times `length`; negative outside the half-space.
     [[nodiscard]] DoubleDouble slack(const Precise& y, std::size_t d) const {
         DoubleDouble sum{bound};
         for (std::size_t k = 0; k < d; ++k) sum = sum - DoubleDouble{normal[k]} * y[k];

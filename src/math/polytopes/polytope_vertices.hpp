@@ -6,8 +6,8 @@
 // contain both.
 //
 // Computations use twice the precision of a double, to distinguish planes that meet in a vertex or
-// touch the polytope from those that nearly do. Points within 1e-13 of a plane are on it, because
-// the numbers of half-spaces are rounded. Polytopes thinner than 1e-11 are flat.
+// touch the polytope from those that nearly do. Points within 1e-13 of a plane count as on it,
+// because the coefficients of half-spaces are rounded. Polytopes thinner than 1e-11 count as flat.
 //
 // Cost    O(vertices^2) per half-space.
 // Source  T. S. Motzkin, H. Raiffa, G. L. Thompson, R. M. Thrall, "The double description method",
@@ -41,7 +41,7 @@ struct PolytopePlane {
     PolytopePoint normal;
     double bound;
 
-    /// Distance of a point inside the plane; negative outside.
+    /// Distance of a point from the plane; negative outside the half-space.
     [[nodiscard]] double slack(const double* y, std::size_t d) const {
         double sum = bound;
         for (std::size_t k = 0; k < d; ++k) sum -= normal[k] * y[k];
@@ -55,8 +55,7 @@ struct PolytopeVertices {
     std::vector<PolytopeVertex> all;    ///< by decreasing number of planes, then by coordinates
 };
 
-/// Computes the vertices. @param cuts in d <= most_polytope_dimensions coordinates, with nonzero
-/// normals
+/// Computes the vertices. @param cuts with nonzero normals; d <= most_polytope_dimensions
 /// @throws Error(usage) if no point is in all of them, or if they leave no volume; Error(limit) if
 ///         there are too many planes, vertices or edges
 PolytopeVertices polytope_vertices(std::size_t d, const std::vector<HalfSpace>& cuts);

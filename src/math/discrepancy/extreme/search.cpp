@@ -15,7 +15,7 @@
 // Source  J. Barbay, T. M. Chan, G. Navarro, P. Perez-Lantero, "Maximum-weight planar boxes in
 //         O(n^2) time (and better)", Inform. Process. Lett. 114 (2014) 437-445,
 //         doi:10.1016/j.ipl.2014.03.007 (lines that shrink with their cells, for fixed weights;
-//         the lines in V are this program's).
+//         comparing points for all V of a cell is not from this paper).
 #include "math/discrepancy/extreme/search.hpp"
 
 #include <algorithm>
@@ -50,7 +50,7 @@ struct Line {
 
 /// Maxima of differences of P and Q, updated point by point; see worst_interval.hpp.
 struct Maxima {
-    double all;         ///< scale times the section of the boxes
+    double all;         ///< scale times section() of the boxes
     double weight;      ///< weight of a point
     double before = 0;  ///< weight of the points so far
     double highest = -huge;
@@ -126,8 +126,7 @@ double length_of(const BoxGrid& grid, std::size_t axis, const Ends& ends, Extent
     return length_of<double>(ends, extent, 1, [&](std::uint32_t i) { return values[i]; });
 }
 
-/// Section of a cell's largest or smallest boxes: product of their lengths on all axes except the
-/// first.
+/// Section of a cell's largest or smallest boxes: product of lengths on all axes except the first.
 double section(const BoxGrid& grid, const Cell& cell, Extent extent) {
     double product = 1;
     for (std::size_t k = 0; k < axes_of(cell); ++k)
@@ -428,8 +427,7 @@ class CellBounder {
         }
     }
 
-    /// Drops dominated decided points, because they cannot be ends of boxes worse than the worst so
-    /// far.
+    /// Drops dominated decided points, which cannot be ends of boxes worse than the worst so far.
     void prune(Line& line) {
         Stretch stretch{.first = 0, .last = 0};
         auto& entries = line.entries;
@@ -537,8 +535,8 @@ double factor(Family family, double dimension) {
            (1 + 0x1p-50);
 }
 
-/// Upper bound from an upper bound of the star discrepancy, computed within a small part of the
-/// search's work and time.
+/// Upper bound of a family's discrepancy from a bound of the star discrepancy, which may take the
+/// work and time `share`.
 double star_bound(const PointSet& points, Family family, const SearchLimits& share,
                   const RunContext& run) {
     const auto d = static_cast<double>(points.dimension());
@@ -553,7 +551,7 @@ double star_bound(const PointSet& points, Family family, const SearchLimits& sha
     return std::min(known, factor(family, d) * found.upper);
 }
 
-/// Limits for star_bound: a fraction of a long search, and little work if there is no deadline.
+/// Limits for star_bound(): a tenth of the search's work and time; without a deadline, little work.
 SearchLimits share_for_bound(const SearchLimits& limits, const RunContext& run) {
     constexpr double part = 0.1;
     constexpr std::uint64_t short_work = 1U << 27;
@@ -568,7 +566,7 @@ SearchLimits share_for_bound(const SearchLimits& limits, const RunContext& run) 
 }  // namespace
 
 double search_memory(const PointSet& points, unsigned threads) {
-    // From a cell to its parts, lines halve in length about every 2 d steps.
+    // Each split shortens the lines; about every 2 d splits halve their length.
     const auto d = static_cast<double>(points.dimension());
     const double lines = std::min(3 * d + 2, 24.0);
     const double per_point = d * static_cast<double>(axis_bytes(false)) + 40 +

@@ -7,7 +7,7 @@
 
 namespace stipple::discrepancy::extreme {
 
-/// Bytes of a search with this number of threads, including the grid.
+/// Bytes that a search with `threads` threads needs, including the grid.
 double search_memory(const PointSet& points, unsigned threads);
 
 /// Searches for boxes worse than `worst`, given an upper bound of all values.
@@ -18,12 +18,11 @@ SearchResult search(const BoxGrid& grid, WorstBox worst, const SearchLimits& lim
 SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run,
                         double upper = 1);
 
-/// Searches after computing a bound from the star discrepancy of the points, as a small part of the
-/// work.
+/// Searches after computing a bound from the star discrepancy with a small part of the work.
 SearchResult find_worst(const PointSet& points, const BoxGrid& grid, const SearchLimits& limits,
                         const RunContext& run);
 
-/// Upper bound that takes milliseconds, more for many points. Ignores stop requests.
+/// Upper bound computed in milliseconds, or longer for many points. Ignores stop requests.
 double quick_bound(const PointSet& points, Family family, const RunContext& run);
 
 }  // namespace stipple::discrepancy::extreme

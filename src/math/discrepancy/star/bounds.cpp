@@ -18,11 +18,12 @@
 
 namespace stipple::discrepancy::star {
 
-// Bounds from boxes that cover all axes except one. The worst of these is the first known box, and
-// the result if there is no time for more. For an upper bound, let E_k bound the discrepancy of the
-// points' coordinates on axis k of d. A box with sides v_k and volume v is the intersection of d
-// boxes that cover all axes except one, each with one of its sides. It contains at most as many
-// points as any of these, and misses at most as many as all of them together:
+// Bounds from boxes that cover all axes except one. The worst of these boxes is the first known box
+// of a search, and its result if no time is left for more. For an upper bound, let E_k bound the
+// discrepancy of the points' coordinates on axis k of d. A box with sides v_k and volume v is the
+// intersection of d boxes that cover all axes except one, each with one of its sides. Let # be the
+// number of points in this box. It contains at most as many points as any of the d boxes, and
+// misses at most as many as all of them together:
 //
 //     #/n <= min_k (v_k + E_k),          min_k v_k = p   =>  v >= p^d,
 //     #/n >= 1 - sum_k (1 - v_k + E_k),  mean_k v_k = s  =>  v <= s^d.
@@ -39,7 +40,7 @@ namespace {
 /// A box that covers all axes except one.
 struct AxisBox {
     double value = -1;
-    std::uint32_t rank = 0;  ///< rank of its end on that axis
+    std::uint32_t rank = 0;  ///< rank of its end on this one axis
     std::uint64_t points = 0;
 
     void take(const AxisBox& other) {
@@ -139,7 +140,7 @@ double axis_bound(const BoxGrid& grid, double times) {
 
 namespace {
 
-/// Values of the grid on each axis, increasing from 0 to 1.
+/// Coordinates of the grid's corners on each axis, increasing from 0 to 1.
 std::vector<double> cuts_for(double delta, double dimension) {
     std::vector<double> cuts{1};
     const double first = exponential(logarithm(1 - delta) / dimension);
@@ -150,7 +151,8 @@ std::vector<double> cuts_for(double delta, double dimension) {
     return cuts;
 }
 
-/// Finest grid with at most `most_corners` corners; empty if it would have no inner ones.
+/// Coordinates of the finest grid with at most `most_corners` corners; empty if no corner would be
+/// in the interior of the cube.
 std::vector<double> finest_cuts(std::size_t dimension, double most_corners) {
     const auto d = static_cast<double>(dimension);
     const double most = std::floor(exponential(logarithm(most_corners) / d) + 1e-9);
@@ -167,7 +169,7 @@ std::vector<double> finest_cuts(std::size_t dimension, double most_corners) {
     return cuts;
 }
 
-/// Number of points with coordinates up to each corner; the last axis is the fastest index.
+/// Number of points in the closed box of each corner; the index on the last axis varies fastest.
 std::vector<std::uint32_t> corner_counts(const BoxGrid& grid, const std::vector<double>& cuts,
                                          const RunContext& run) {
     const std::size_t side = cuts.size();
@@ -196,7 +198,7 @@ std::vector<std::uint32_t> corner_counts(const BoxGrid& grid, const std::vector<
     return counts;
 }
 
-/// Bound of the worst cell, by lines of cells along the last axis.
+/// Bound of the worst cell; visits the cells in lines along the last axis.
 double worst_cell(const BoxGrid& grid, const std::vector<double>& cuts, const RunContext& run) {
     const auto counts = corner_counts(grid, cuts, run);
     const auto points = static_cast<double>(grid.count);
@@ -206,7 +208,7 @@ double worst_cell(const BoxGrid& grid, const std::vector<double>& cuts, const Ru
     double worst = 0;
     for (std::size_t line = 0; line * side + across < counts.size(); ++line) {
         if (line % 65536 == 0) run.check_stop();
-        double low = 1;  // volumes of the corners on all axes except the last
+        double low = 1;  // products of the corners' coordinates except the last
         double high = 1;
         std::size_t rest = line;
         for (std::size_t k = 1; k < grid.dimension(); ++k, rest /= side) {
@@ -214,7 +216,7 @@ double worst_cell(const BoxGrid& grid, const std::vector<double>& cuts, const Ru
             low *= cuts[at];
             high *= at + 1 < side ? cuts[at + 1] : 0;
         }
-        if (high == 0) continue;  // no cells begin at 1
+        if (high == 0) continue;  // a line at the upper end of an axis has no cells
         const std::uint32_t* below = &counts[line * side];
         const std::uint32_t* within = below + across;
         for (std::size_t i = 0; i + 1 < side; ++i) {
@@ -262,7 +264,7 @@ using equidistribution::Probe;
 /// The bound E(m, d) / 2^m.
 double share_of(std::size_t t, std::size_t m, std::size_t dimension) {
     const double least = std::ldexp(1.0, static_cast<int>(t));
-    std::vector<double> excess(m - t + 1, least);  // for nets of 2^t, 2^(t+1), ... points
+    std::vector<double> excess(m - t + 1, least);  // E(t, d), ..., E(m, d), at first for d = 1
     for (std::size_t d = 2; d <= dimension; ++d) {
         double sum = least;
         for (double& e : excess) {

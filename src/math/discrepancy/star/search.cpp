@@ -2,12 +2,14 @@
 //
 // Branch and bound for anchored boxes. With many points, cells take long to become small, so a
 // first upper bound comes from a grid cover, or from a net if the points form one. From time to
-// time a threshold search looks for worse boxes, which exploring the cells would find only late.
+// time a threshold search looks for worse boxes, which exploring the cells would find only late. A
+// cell consists of all boxes with an upper corner y, lo <= y <= hi.
 //
-// Points below lo on all axes are in the box of every corner y of a cell. Points that are not below
-// hi on some axis are in none. The others are undecided, on the axes on which they are not below
-// lo. Let O be the number of points in the open box, C that in the closed one and V the volume.
-// Some undecided points are assigned to axis j; c_j(y_j) of these are below y_j. Then
+// Points below lo on all axes are in every box of a cell. Points that are not below hi on some axis
+// are in none. The others are undecided, on the axes on which they are not below lo. Let O(y) be
+// the number of points in the open box of y, C(y) that in the closed one and V(y) their volume.
+// Some undecided points are assigned to an axis; c_j(y_j) is the number of those of axis j that are
+// below y_j. Then
 //
 //     open     V(y) - O(y)/n <= V(hi) - O(lo)/n - sum_j min over y_j of [step_j(y_j) + c_j(y_j)/n]
 //     closed   C(y)/n - V(y) <= C(lo)/n - base  - sum_j min over y_j of [step_j(y_j) - c_j(y_j)/n]
@@ -26,8 +28,7 @@
 //
 // This is the tangent of exp at log v, with v chosen between V(lo) and the largest V(y) of a box
 // worse than D. If V(lo) is 0, so are all steps. As the bounds are sums over the axes, y_j is
-// excluded if its term exceeds the smallest one by more than the bound exceeds D. So the cell
-// shrinks.
+// excluded if its term exceeds the smallest one by more than the bound exceeds D.
 //
 // On each axis only the coordinates of the cell's points matter, the candidates: a worst open box
 // cannot grow without including a point (or reaches 1), and a worst closed one cannot shrink
@@ -56,11 +57,11 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double tiny = 1e-300;
 
-/// Bit of a bin that marks its rank as a candidate. The other bits count points.
+/// Bit of a bin, see fill_bins(), that marks its rank as a candidate. The other bits count points.
 constexpr std::uint32_t candidate = std::uint32_t{1} << 31;
 
-/// Number of bins before each axis's own, for irrelevant points; several, because incrementing the
-/// same bin repeatedly is slow.
+/// Number of bins before those of the ranks on an axis, for irrelevant points; several, because
+/// incrementing the same bin repeatedly is slow.
 constexpr std::int32_t dummy_bins = 16;
 
 /// The upper bits of a point's state count the axes on which it is undecided. The lower bits are
@@ -89,7 +90,8 @@ STIPPLE_WIDE void compare(const std::int32_t* ranks, std::size_t size, std::int3
                     (ranks[i] >= lo ? undecided_unit : 0);
 }
 
-/// Assigns points to `axis` if reaching them costs more there than on the axes before.
+/// Assigns points to `axis` if reaching them from lo, at `price` a rank, costs more than on any
+/// axis before.
 STIPPLE_WIDE void assign_to(const std::int32_t* ranks, std::size_t size, std::int32_t lo,
                             float price, std::int32_t axis, float* cost, std::int32_t* axes) {
     for (std::size_t i = 0; i < size; ++i) {
@@ -141,9 +143,9 @@ class CellBounder {
           terms_(d_),
           least_(d_) {}
 
-    /// Shrinks the cell to corners of boxes that may be worse than the worst, and offers boxes on
-    /// the way. Copies the relevant points of `from` to `mine`. Returns false if nothing is left to
-    /// split.
+    /// Shrinks the cell to corners of boxes that may be worse than the worst known one, and offers
+    /// some of its boxes. Copies the relevant points of `from` to `mine`. Returns false if nothing
+    /// is left to split.
     bool tighten(Cell& cell, const Active& from, Active& mine) {
         filter(cell, from, mine);
         while (true) {
@@ -178,8 +180,8 @@ class CellBounder {
     [[nodiscard]] std::uint64_t work() const { return work_; }
 
   private:
-    /// Candidates for corners on an axis: ranks, counted from lo, and signed numbers of assigned
-    /// points up to each. The vectors have room for more than `size`.
+    /// Candidates for y on an axis: their distances from lo, and the signed numbers of assigned
+    /// points up to each. Vectors may be longer than `size`.
     struct Candidates {
         std::size_t size = 0;
         std::vector<std::int32_t> ranks;
@@ -188,7 +190,7 @@ class CellBounder {
 
     struct Anchor {
         double bound;
-        double weight;  ///< factor of a step in the terms
+        double weight;  ///< factor of the difference of logarithms in the terms
         double margin;  ///< exceeds the rounding errors of the bound and of the terms
     };
 
@@ -360,7 +362,7 @@ class CellBounder {
         return {share - weight * (1 + low - at) + margin, weight, margin};
     }
 
-    /// Bounds the cell `seen` and removes the ends that the bound excludes from `cell`; returns
+    /// Bounds the cell `seen` and removes corners that the bound excludes from `cell`; returns
     /// false if it excludes all.
     bool reduce(const Cell& seen, Cell& cell) {
         const auto [before, weight, margin] = anchor(seen);
@@ -392,8 +394,8 @@ class CellBounder {
         return (high - m) / logarithm(high / m) * (1 - 1e-12);
     }
 
-    /// Removes the ends of an axis up to its outermost candidates with terms of at most `most`.
-    /// Returns false if there are no such candidates.
+    /// Narrows the cell on axis k to its outermost candidates with terms of at most `most`. Returns
+    /// false if there are no such candidates.
     bool cut_ends(std::size_t k, double most, const Cell& seen, Cell& cell) {
         const Candidates& candidates = candidates_[k];
         const auto rank = [&](std::size_t i) {
@@ -517,7 +519,7 @@ class AnchoredBoxes final : public Problem {
     void look_around(Known& known, std::uint64_t work) override {
         constexpr std::uint64_t short_work = SearchLimits::short_work;
         if (known.work > short_work / 4) look_quickly(known.worst, known.upper);
-        // Work between two threshold searches, as a multiple of theirs.
+        // The total work is at least this multiple of the work of threshold searches.
         constexpr std::uint64_t searches_apart = 16;
         if (known.work > short_work && searches_apart * threshold_work_ < known.work) {
             const std::uint64_t cost =

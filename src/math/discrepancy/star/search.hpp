@@ -24,9 +24,9 @@ SearchResult sweep_or_search(const BoxGrid& grid, WorstBox worst, const SearchLi
 SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run,
                         Peers* peers = nullptr);
 
-/// Upper bound on the discrepancy, in milliseconds (more for many points). For other kinds of
-/// boxes, pass how many times larger than that of anchored boxes their discrepancy can be:
-/// `of_axis` for a single coordinate, `of_all` for all together. Ignores stop requests.
+/// Upper bound on the discrepancy, computed in milliseconds, or longer for many points. For other
+/// families of boxes, `of_axis` and `of_all` are the largest ratios of their discrepancy to that of
+/// anchored boxes, for a single coordinate and for all together. Ignores stop requests.
 double quick_bound(const BoxGrid& grid, const RunContext& run, double of_axis = 1,
                    double of_all = 1);
 
@@ -35,12 +35,12 @@ double search_bytes(std::size_t count, std::size_t dimension, unsigned threads);
 
 // Bounds for all anchored boxes at once, available before the cells of a search become small.
 
-/// Offers the worst box that covers all axes except one, for each axis and side; the worst of these
-/// has a value of at least 1/(2n).
+/// Offers the worst box that covers all axes except one, for each axis and side. The worst of all
+/// these boxes has a value of at least 1/(2n).
 void offer_axis_boxes(const BoxGrid& grid, WorstBox& worst);
 
-/// As offer_axis_boxes() above, separately for open and closed boxes; one kind may have no bad
-/// boxes.
+/// As offer_axis_boxes() above, but keeps open and closed boxes apart. One of the two may stay
+/// without a box of positive value.
 void offer_axis_boxes(const BoxGrid& grid, WorstBox& open, WorstBox& closed);
 
 /// Upper bound from single axes, if discrepancies on an axis are at most `times` those of anchored

@@ -28,13 +28,13 @@ template <class T, class Vector>
     std::memcpy(to, &vector, sizeof vector);
 }
 
-/// Lines of strips and blocks, the braces of strips.hpp, are w z - c with |w| <= 2 B, c <= B and
-/// 0 <= z <= 1. They are kept in single precision, in rows padded to whole vectors.
+/// The braces in strips.hpp, lines of strips and of blocks, are w z - c with |w| <= 2 B, |c| <= B
+/// and 0 <= z <= 1. They are kept in single precision, in rows padded to whole vectors.
 constexpr std::size_t lanes = sizeof(Floats) / sizeof(float);
 
 std::size_t padded(std::size_t size) { return (size + lanes - 1) / lanes * lanes; }
 
-/// Exceeds the rounding error of a chord, in points.
+/// Upper bound on the rounding error of a chord, in points.
 constexpr double margin = 0x1p-8;
 
 /// Padding: a line far below all others, even after points are added.
@@ -50,7 +50,7 @@ struct Heights {
     double high;
 };
 
-/// Heights of the highest of the lines w z - c, at two z.
+/// Maxima of all lines w z - c at z_low and at z_high.
 STIPPLE_WIDE Heights highest(const float* w, const float* c, std::size_t size, float z_low,
                              float z_high) {
     Floats low = Floats{} - no_line;
@@ -110,14 +110,14 @@ void add_before(float* c, std::size_t to, float by) {
     for (std::size_t i = whole; i < to; ++i) c[i] += by;
 }
 
-/// An upper bound on all lines between two z, from the maxima at both.
+/// A linear upper bound on all lines between z_low and z_high, from the maxima at both.
 struct Chord {
     double height;  ///< at z = 0
     double slope;
 };
 
 Chord chord(const Heights& ends, double z_low, double z_high) {
-    constexpr double near = 1e-6;  // shorter ranges get slope 0: others would amplify rounding
+    constexpr double near = 1e-6;  // shorter ranges get slope 0, as rounding would distort it
     const auto [low, high] = ends;
     if (z_high - z_low < near) return {std::max(low, high) + margin, 0};
     const double slope = (high - low) / (z_high - z_low);
@@ -301,7 +301,7 @@ class Sweep {
 
     [[nodiscard]] double level() const { return plane_.count * worst_.threshold(); }
 
-    /// Number of the strip's entered points inside a box that ends at the strip's only rank.
+    /// For a strip of a single rank: number of its entered points inside a box that ends there.
     [[nodiscard]] double all_entered() const {
         return side == Side::open ? 0 : static_cast<double>(entered_);
     }
@@ -330,7 +330,8 @@ class Sweep {
                 look_at(u, height_[u] - add - raised_[u]);
     }
 
-    /// Offers the boxes of a strip and a block, given the signed number of points in their corner.
+    /// Offers the boxes of the current strip and block u, given the number of points with r < a0
+    /// and t < j0 (open, negative) or t < j1 (closed).
     void look_at(std::size_t u, double signed_points) {
         const auto y = static_cast<float>(y_[u]);
         const double best_a = strip_heights(y, y).low;
@@ -353,7 +354,7 @@ class Sweep {
                 if (height_a + height_j >= least) offer(u, a, j, corner_points, {first, last});
     }
 
-    /// Finds the lines with heights of at least `least` at z. The highest is first: after its box
+    /// Finds the lines with heights of at least `least` at z. The highest comes first: once its box
     /// is offered, others rarely need an exact comparison.
     static void gather(const float* w, const float* c, std::size_t size, float z, double least,
                        std::vector<Line>& lines) {
@@ -389,14 +390,14 @@ class Sweep {
     const std::vector<double>& ys_;
     WorstBox& worst_;
 
-    // State of the blocks; y_ to row_ have one number per block.
-    std::vector<double> y_;         ///< reference coordinate
-    std::vector<double> slope_;     ///< slope of the chord, in x
-    std::vector<double> height_;    ///< height of the chord, including the points in the corner
-    std::vector<double> raised_;    ///< height of the chord, without these points
-    std::vector<std::size_t> row_;  ///< index of the first line
-    std::vector<float> weight_;     ///< w, by line
-    std::vector<float> points_;     ///< c, by line
+    // State of the blocks; y_ to row_ have one element per block.
+    std::vector<double> y_;         ///< Y_j0 (open) or Y_J (closed) of strips.hpp
+    std::vector<double> slope_;     ///< slope of the chord as a function of x
+    std::vector<double> height_;    ///< height of the chord plus signed points of look_at()
+    std::vector<double> raised_;    ///< height of the chord alone
+    std::vector<std::size_t> row_;  ///< index of the block's first line
+    std::vector<float> weight_;     ///< w of each line
+    std::vector<float> points_;     ///< c of each line
 
     // State of the current strip.
     std::size_t strip_ = 0;
@@ -427,7 +428,7 @@ Groups groups_of(const std::vector<double>& values, const std::vector<std::uint3
     return groups;
 }
 
-/// Sorts the dots by their first rank.
+/// Fills plane.dots, sorted by first rank, and plane.dots_from.
 void sort_dots(const BoxGrid& grid, std::vector<std::uint32_t> points, Plane& plane,
                const RunContext& run) {
     std::uint32_t before = 0;

@@ -2,8 +2,9 @@
 //
 // The worst box in the plane, strip by strip. Ranks on the first axis are grouped into strips,
 // those on the second into blocks, of up to B points each. Consider boxes that end in a strip a0 <=
-// a < a1 and a block j0 <= j < j1, with X_a, Y_j the values at ranks and #[..] the number of points
-// with ranks (r, t). Open boxes split into parts that depend on a or j alone, and a remainder:
+// a < a1 and a block j0 <= j < j1, where X_a and Y_j are the coordinates at these ranks, and #[..]
+// is the number of points whose ranks (r, t) satisfy the conditions. Open boxes split into parts
+// that depend on a or j alone, and a remainder:
 //
 //     n X_a Y_j - #[r < a, t < j]  =  n X_a0 Y_j0 - #[r < a0, t < j0]
 //         + { n (X_a - X_a0) Y_j0 - #[a0 <= r < a, t < j0] }
@@ -18,9 +19,9 @@
 //         + { n (Y_J - Y_j) X_a0 - #[r < a0, j < t < j1] }
 //         + n (X_a - X_a0) (Y_J - Y_j) - #[a0 <= r <= a, j < t < j1].
 //
-// For a given a or j, a brace is a line: a linear function of the value on the other axis as long
-// as its points do not change. The maximum over all a (or j) is convex, so a chord bounds it from
-// one point of the strip (or block) to the next. Each pair of strip and block then takes two
+// For a given a or j, a brace is a line: a linear function of the coordinate on the other axis, as
+// long as it counts the same points. The maximum over all a (or j) is convex, so a chord bounds it
+// from one point of the strip (or block) to the next. Each pair of strip and block then takes two
 // products and a comparison; only for few pairs are all boxes compared.
 //
 // Cost    n B for the chords and (n / B)^2 for the pairs: O(n^(4/3)) time with B ~ n^(1/3), if the
@@ -37,7 +38,8 @@
 
 namespace stipple::discrepancy::star {
 
-/// Groups of neighbouring ranks on one axis: up to a number of points, or a single rank.
+/// Groups of neighbouring ranks on one axis. Each has at most a given number of points and a given
+/// width, or is a single rank.
 struct Groups {
     std::vector<std::uint32_t> first;  ///< first rank of each group, then the number of ranks
 
@@ -57,7 +59,7 @@ struct Plane {
     double count = 0;  ///< n
     Groups strips;
     Groups blocks;
-    double widest = 0;                     ///< maximum difference of values in a group
+    double widest = 0;                     ///< maximum width of a group
     std::vector<Dot> dots;                 ///< sorted by `first`
     std::vector<std::uint32_t> dots_from;  ///< first dot of each strip, then n
     std::vector<std::uint32_t> next;       ///< for each dot: next strip with a dot in its block
@@ -73,7 +75,7 @@ struct StripRange {
     std::size_t last;
 };
 
-/// Offers to `worst` all boxes of one side that end in these strips and may be worse. Calls
+/// Offers to `worst` all boxes of one side that end in these strips and may be worse than it. Calls
 /// passed(number of dots) after each strip.
 void sweep_strips(const Plane& plane, Side side, StripRange strips, WorstBox& worst,
                   const RunContext& run, const std::function<void(std::uint64_t)>& passed);

@@ -11,7 +11,7 @@
 namespace stipple::discrepancy::star {
 namespace {
 
-constexpr std::size_t ticks_apart = 256;  // points between checks of the stop token
+constexpr std::size_t ticks_apart = 256;  // points between progress reports
 
 }  // namespace
 
@@ -35,7 +35,8 @@ namespace {
 /// Thrown if a sweep is out of time or stopped.
 struct Halt {};
 
-/// Sweeps all strips in a few parts; part i offers to worst[i].
+/// Sweeps all strips in worst.size() / 2 parts; part i offers open boxes to worst[2 i], closed ones
+/// to worst[2 i + 1].
 void sweep_parts(const Plane& points, std::vector<WorstBox>& worst, const SearchLimits& limits,
                  const RunContext& run) {
     const std::size_t n = points.grid->count;
@@ -68,7 +69,8 @@ void need_memory_of_sweep(const BoxGrid& grid, const RunContext& run) {
     run.need_memory(each * static_cast<double>(grid.count), "the sweep over the square");
 }
 
-/// Number of parts; few, because each first adds all points to its left, and has its own worst box.
+/// Number of parts; few, because each part first adds all points to its left, and starts without
+/// the worst boxes of the others.
 std::size_t parts_of_sweep(const BoxGrid& grid) { return grid.count < 100'000 ? 1 : 2; }
 
 }  // namespace
