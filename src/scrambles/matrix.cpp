@@ -22,7 +22,7 @@ constexpr Param<Numbers> base{{.name = "base",
                                .help = "Base of the digits, a prime: one for all coordinates, or "
                                        "one for each; default: the generator's, else 2"}};
 
-/// Product with a binary matrix, by tables for each byte.
+/// Product with a binary matrix plus a digital shift, from a table of 256 products for each byte.
 class BinaryProduct {
   public:
     BinaryProduct(std::uint64_t seed, std::size_t coordinate)

@@ -7,8 +7,8 @@
 // Cost     O(n d).
 // Promise  a coordinate stays in its interval [k / N, (k + 1) / N), by exact arithmetic. So N = n
 //          keeps the Latin property, and N = b^m the net property of a (t,m,s)-net in base b. A
-//          coordinate that is the rounded value of an interval's lower edge counts as on it.
-// Beware   depends on the points' order: the numbers u belong to positions in the file.
+//          coordinate equal to an interval's lower edge, as rounded, counts as on it.
+// Beware   depends on the points' order: u is a function of the point's index.
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +27,8 @@ constexpr Param<std::int64_t> cells{.name = "cells",
                                     .optional = true,
                                     .help = "Number N of intervals; default: the number of points"};
 
-/// Index of the interval of x; if x is the rounded value of an edge, of the interval that begins
-/// there.
+/// Index of the interval that contains x. If x is the rounded value of an edge, the interval that
+/// begins at that edge.
 std::uint64_t interval_of(double x, std::uint64_t count) {
     const double scaled = x * static_cast<double>(count);
     const double edge = std::round(scaled);
@@ -44,7 +44,7 @@ Randomization make(const Values& options, const ScrambleRequest& request) {
         fail(ErrorKind::usage, "micro-jitter: --cells: needed, as the number of points is unknown");
     const Rng rng = scramble_numbers(request.seed, ScrambleStream::micro_jitter);
     return [count, rng, which = request.coordinates](std::uint64_t first, std::span<double> rows) {
-        // A fixed stride gives a coordinate the same number whichever others are scrambled.
+        // The fixed stride gives a coordinate the same u no matter which others are scrambled.
         constexpr std::uint64_t stride = std::uint64_t{1} << 20;
         const std::size_t d = which.size();
         for (std::size_t i = 0; i < rows.size(); ++i) {

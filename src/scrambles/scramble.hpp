@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Record of a scramble, and the randomization that it makes for given options. A scramble moves
-// points at random within the unit cube, so that each is uniform and the set stays as even as
-// before.
+// points at random within the unit cube and keeps the kind of evenness that its file promises, such
+// as the net property. Each point becomes uniform, except by micro-jitter and given shifts.
 #pragma once
 
 #include <cstddef>
@@ -22,15 +22,15 @@ inline constexpr Param<Text> scramble_seed{
 
 /// Describes the set to scramble.
 struct ScrambleRequest {
-    /// Coordinates to scramble, as positions in a row, from 0.
+    /// Indices of the coordinates to scramble, from 0.
     std::vector<std::size_t> coordinates = {};
     std::uint64_t seed = 1;
     std::uint64_t count = 1;  ///< points in the whole set; 0: not known
 };
 
-/// One random choice of a scramble's map; safe to call from several threads. Moves points first,
-/// first + 1, ... of the set: `rows` holds their coordinates to scramble, in [0, 1] on entry and in
-/// [0, 1) on return.
+/// Map of points drawn at random by a scramble; safe to call from several threads. Moves points
+/// first, first + 1, ... of the set: `rows` holds those of their coordinates that are scrambled, in
+/// [0, 1] on entry and in [0, 1) on return.
 using Randomization = std::function<void(std::uint64_t first, std::span<double> rows)>;
 
 struct Scramble {
@@ -38,12 +38,12 @@ struct Scramble {
     std::string summary;
     std::string source;
     std::string family = {};  ///< family name such as "blue noise", set by the registry
-    /// Further search terms: a kind, a part or a use of the scramble.
+    /// Further search terms, such as variants, components or applications of the scramble.
     std::vector<std::string> related = {};
     Schema options;
     std::vector<std::string> aliases = {};  ///< other names that users may type
 
-    /// Raised when the same options and seed give other results (see tests/contract/golden.txt).
+    /// Increased whenever the same options and seed give other points (tests/contract/golden.txt).
     std::uint64_t stream_version = 1;
 
     /// @throws Error(usage)
@@ -58,7 +58,7 @@ std::vector<std::uint32_t> bases_for(const std::vector<double>& given, std::size
 /// Largest number of points that a coordinate-wise randomization moves at a time.
 inline constexpr std::size_t most_moved = 512;
 
-/// Randomization that moves the k-th coordinate of consecutive points by move(k, numbers).
+/// Randomization that calls move(k, x) with the k-th coordinates x of up to most_moved points.
 Randomization coordinate_wise(std::size_t dimension,
                               std::function<void(std::size_t k, std::span<double>)> move);
 
