@@ -16,17 +16,17 @@ constexpr Param<double> length_option(std::string_view name, double fallback,
     return {.name = name, .fallback = fallback, .low = 1e-150, .high = 1e150, .help = help};
 }
 
-/// Checks a coordinate x of a centre. @throws Error(usage) if it is so large that rounding destroys
-/// the shape of size `reach`
+/// Checks a coordinate x of a centre. @throws Error(usage) if it is so large that rounding would
+/// destroy a shape of size `reach`
 void refuse_far(double x, double reach);
 
 /// Expands an option with one number for all coordinates, or one for each, to d numbers.
-/// @throws Error(usage) for another count
+/// @throws Error(usage) for another count of numbers
 std::vector<double> one_for_each(const Param<Numbers>& option, std::vector<double> numbers,
                                  std::size_t d);
 
-/// Checks that weights are >= 0 and sum to 1 within 1e-12; if `normalize`, any sum is accepted.
-/// Returns them divided by their sum.
+/// Checks that weights are >= 0 and sum to 1 within 1e-12; if `normalize`, accepts any sum. Returns
+/// the weights divided by their sum.
 /// @throws Error(usage)
 std::vector<double> checked_weights(const Param<Numbers>& option, std::vector<double> weights,
                                     bool normalize);

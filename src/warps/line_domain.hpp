@@ -49,7 +49,7 @@ class LineDistribution {
     [[nodiscard]] virtual double measure() const {  ///< length of the whole range
         return range().second - range().first;
     }
-    /// Moments; NaN or infinite if they do not exist or are unknown.
+    /// Moments; NaN or infinite if a moment does not exist or is unknown.
     [[nodiscard]] virtual LineMoments moments() const = 0;
 
     /// Whether inverse() is the distribution function, so that the probability of an interval of
@@ -60,7 +60,7 @@ class LineDistribution {
     /// whose length is the outcome's probability.
     [[nodiscard]] virtual bool has_outcomes() const { return false; }
 
-    /// Coordinate in the cube, and the probability between two such coordinates; needed if not
+    /// Cube coordinate of x, and the probability between two cube coordinates; overridden if not
     /// even().
     [[nodiscard]] virtual double cube_coordinate(double x) const { return inverse(x); }
     [[nodiscard]] virtual Estimate probability(double low, double high) const {
@@ -87,7 +87,7 @@ class LineDistribution {
 
 class LineDomain final : public NamedDomain {
   public:
-    /// @param distributions one for each coordinate
+    /// @param distributions one distribution for each coordinate
     /// @param what description of the cube's coordinates
     LineDomain(std::vector<std::shared_ptr<const LineDistribution>> distributions, std::string spec,
                std::string what)
@@ -243,7 +243,7 @@ class LineMapping final : public Mapping {
         }
     }
 
-    std::vector<std::shared_ptr<const Law>> laws_;  ///< one for all, or one for each
+    std::vector<std::shared_ptr<const Law>> laws_;  ///< one for all coordinates, or one for each
     const LineDomain& line_;
 };
 

@@ -16,7 +16,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least_number = 1e-300;
 
-/// Copies numbers to u and replaces those below `least_number`.
+/// Copies numbers to u, and then raises those below `least_number` to it.
 STIPPLE_WIDE void raise(std::span<double> numbers, double* u) {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         u[i] = numbers[i];
@@ -87,7 +87,7 @@ class MarginalLine final : public LineDistribution {
         if (endless_.first || endless_.second) return infinity;
         return discrete_ ? law_->outcomes() : ends_.second - ends_.first;
     }
-    /// NaN for moments outside the range of doubles, unless there is only one outcome.
+    /// Moments; NaN if outside the range of doubles, unless there is only one outcome.
     LineMoments moments() const override {
         constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
         const auto [mean, variance, skewness] = law_->moments();
@@ -115,7 +115,7 @@ class MarginalLine final : public LineDistribution {
         return {{range()}, measure()};
     }
 
-    /// False for discrete distributions, for which to_cube gives the middle of an outcome's cell.
+    /// False for discrete distributions: cube_coordinate() is then the middle of an outcome's cell.
     bool even() const override { return !discrete_; }
     bool has_outcomes() const override { return discrete_; }
     double cube_coordinate(double x) const override {
@@ -128,8 +128,8 @@ class MarginalLine final : public LineDistribution {
     }
 
   private:
-    /// Whether a side is unbounded, or is the end of a table of outcomes, beyond which others are
-    /// very unlikely.
+    /// Whether the end x of the support is infinite, or is the end of a discrete distribution's
+    /// table, where probabilities are below 1e-9 of the median's.
     bool has_thin_end(double x) const {
         return std::isinf(x) ||
                (discrete_ && law_->density(x) < 1e-9 * law_->density(law_->quantile(0.5)));
@@ -160,7 +160,7 @@ class MarginalLine final : public LineDistribution {
     bool discrete_;
     std::pair<double, double> ends_;
     std::pair<bool, bool> endless_;
-    /// The ends. If an end or its density is infinite, or its density is 0: the next double inside.
+    /// Ends of the support; the next double inside if end or density is infinite, or density is 0.
     std::pair<double, double> inside_;
 };
 

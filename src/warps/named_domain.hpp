@@ -33,7 +33,7 @@ class NamedDomain : public Domain {
     std::size_t cube_dimension_;
 };
 
-/// Writes cube coordinates, clamped to [0, 1] since rounding may leave it.
+/// Writes cube coordinates, clamped to [0, 1], which rounding may exceed.
 template <std::size_t d>
 void put_clamped(const std::array<double, d>& from, std::span<double> cube) {
     for (std::size_t k = 0; k < d; ++k) cube[k] = std::clamp(from[k], 0.0, 1.0);
@@ -58,7 +58,7 @@ class DomainMapping final : public Mapping {
     const Known& known_;
 };
 
-/// Mapping onto the domain constructed from these arguments.
+/// Mapping onto the domain constructed from the arguments of this function.
 template <class Known, class... Args>
 std::unique_ptr<Mapping> domain_mapping(Args&&... args) {
     return std::make_unique<DomainMapping<Known>>(

@@ -45,7 +45,7 @@ concept DropsPoints = requires {
     &Method::keeps;
 };
 
-/// Row i of rows of d numbers.
+/// Row i of a table with d numbers per row.
 template <std::size_t d>
 std::array<double, d> row_of(std::span<const double> rows, std::size_t i) {
     std::array<double, d> row;
@@ -89,7 +89,7 @@ template <class Known, class Method, std::size_t m>
     return xi;
 }
 
-/// Maps rows back into the cube, vectorized like map_rows(); false if one is not in the domain.
+/// Maps rows back into the cube, vectorized like map_rows(); false if a row is not in the domain.
 template <class Known, class Method>
 STIPPLE_WIDE [[gnu::flatten]] bool map_rows_back(const Known& domain, const Method& method,
                                                  std::span<const double> image,

@@ -29,7 +29,7 @@ class Mapping {
     virtual ~Mapping() = default;
 
     /// The space of the images, which have domain()->dimension() numbers per point. Its density is
-    /// the intended one; images of biased methods follow another.
+    /// the intended one; images of biased methods follow another density.
     [[nodiscard]] const DomainPtr& domain() const { return domain_; }
 
     /// Unit coordinates per point.
@@ -52,8 +52,7 @@ class Mapping {
     /// for unsuitable points; Error(limit), Error(cancelled)
     using SetStep = std::function<void(std::span<double> cube, const RunContext& run)>;
 
-    /// Step that needs the whole set and comes before forward(); empty if points are mapped one by
-    /// one.
+    /// Step that needs the whole set and precedes forward(); empty if points are mapped one by one.
     [[nodiscard]] virtual SetStep set_step() const { return {}; }
 
     /// Whether the image of a row of the cube is infinite and replaced by a finite one. Called only
@@ -100,7 +99,8 @@ struct WarpRequest {
 
     /// Spec of the domain, with all options.
     [[nodiscard]] std::string spec() const;
-    /// Spec of the domain with only these options; the others affect how points are made.
+    /// Spec of the domain with only these options; the other options affect only how points are
+    /// made.
     [[nodiscard]] std::string spec(std::initializer_list<std::string_view> which) const;
 };
 
@@ -118,8 +118,8 @@ struct Warp {
     std::string name;
     std::string summary;
     std::string source;
-    std::string family = {};  ///< "blue noise"; set by the registry from the folder
-    /// Search words that are not names of this unit: its kind, parts or uses.
+    std::string family = {};  ///< family name, set by the registry from the folder
+    /// Search words that are not names of the warp: its kind, components or uses.
     std::vector<std::string> related = {};
     std::string strata;  ///< images of the strata, and whether xi or 1 - xi is used
     WarpTraits traits = {};
@@ -133,7 +133,7 @@ struct Warp {
     std::function<std::unique_ptr<Mapping>(const WarpRequest&)> mapping;
 
     /// Reads the domain of a warp that a file describes; the domain's spec is the warp's, with the
-    /// contents of the file. Empty for other warps. @throws Error(input) naming the place in the
+    /// contents of the file. Empty for other warps. @throws Error(input) naming the position in the
     /// file; Error(io)
     std::function<DomainPtr(const std::string& path, const RunContext& run)> read = {};
 

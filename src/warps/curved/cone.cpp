@@ -76,7 +76,7 @@ class ConeDomain final : public NamedDomain {
         const auto [x, y, z] = cap_.frame.in(vector_of(point));
         const double rr = x * x + y * y;
         if (!(std::abs(std::sqrt(rr + z * z) - 1) <= slack)) return false;
-        // Straight-line distances from the pole nearer to the rim.
+        // Tests straight-line distances from the pole that is nearer to the rim.
         if (cap_.half.sin <= cap_.half.cos)
             return std::sqrt(rr + (z - 1) * (z - 1)) <= 2 * cap_.half.sin + rim_slack_;
         return std::sqrt(rr + (z + 1) * (z + 1)) >= 2 * cap_.half.cos - slack;

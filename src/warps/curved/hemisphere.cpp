@@ -56,8 +56,8 @@ constexpr Param<Choice> disk_map{.name = "disk",
                                      "For method cosine: map from the square to the disk that is "
                                      "projected up to the hemisphere"};
 
-/// Density proportional to cos^k of the angle from the axis, and the fraction of directions nearer
-/// to the axis. Directions are in the axis' frame.
+/// Density proportional to cos^k of the angle from the axis, and the probability of directions
+/// nearer to the axis than a given one. Directions are in the frame of the axis.
 struct CosineLaw {
     static constexpr bool hemisphere = true;
     double power;

@@ -5,7 +5,8 @@
 //
 //     density (1 - g^2) / (4 pi (1 + g^2 - 2 g cos theta)^(3/2))
 //
-// With u = xi0 the probability of the cone about the axis, w = 1 - u, D = (1 + g) w + (1 - g) u:
+// The cone within theta about the axis has the probability u = xi0. With w = 1 - u and
+// D = (1 + g) w + (1 - g) u,
 //
 //     1 - cos theta = 2 (1 - g)^2 u ((1 + g) w + u) / D^2
 //     1 + cos theta = 2 (1 + g)^2 w ((1 - g) u + w) / D^2,      longitude 2 pi xi1,

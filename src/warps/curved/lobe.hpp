@@ -47,7 +47,8 @@ class LobeDomain final : public NamedDomain {
         Box box{{-1, -1, -1}, {1, 1, 1}};
         for (std::size_t k = 0; k < 3 && Lobe::hemisphere; ++k) {
             const double z = frame_.z[k];
-            const double across = std::sqrt(std::max(0.0, 1 - z * z));  // on the horizon
+            // half the horizon's extent along axis k
+            const double across = std::sqrt(std::max(0.0, 1 - z * z));
             if (z > 0)
                 box.low[k] = -across;
             else

@@ -7,14 +7,14 @@
 //     t = (xi0 - S_i) / (S_{i+1} - S_i)
 //     lambda0 = 1 - sqrt(t),  lambda1 = xi1 sqrt(t),  lambda2 = (1 - xi1) sqrt(t)
 //
-// as the weights of the corners, like `triangle`. The sums are computed in twice the working
-// precision and rounded once.
+// which are the weights of corners 0, 1 and 2, as in the warp triangle. The sums are computed in
+// twice the working precision and rounded once.
 //
 // Shape   2 unit coordinates; 3 coordinates, with the normal 6, with the barycentrics 7: position,
 //         index of the triangle from 0, lambda0, lambda1, lambda2.
-// Strata  xi0 runs through the triangles in file order, in each from its first corner to the
-//         opposite edge; xi1 runs along that edge from corner 2 to 1. xi are used directly. Strata
-//         are as compact as the order of the file.
+// Strata  xi0 runs through the triangles in file order, in each from corner 0 to the opposite edge;
+//         xi1 runs along that edge from corner 2 to 1. xi are used directly. Strata are compact if
+//         the file lists neighbouring triangles one after another.
 // Cost    set-up O(n log n) for n triangles; O(1) a point forward, O(log n) inverse; on one core
 //         about 22 ns forward, 740 ns inverse for 3600 triangles.
 // Promise density 1 / area; a triangle's fraction of the points is exact to 2^-53. Points lie on
@@ -61,7 +61,7 @@ constexpr Param<Choice> attributes{
 
 using Pair = std::array<double, 2>;
 
-// Numbers per point, by --attributes.
+// Columns of a point, by --attributes.
 constexpr std::size_t with_normal = 6;
 constexpr std::size_t with_barycentrics = 7;
 
@@ -85,7 +85,7 @@ std::uint64_t digits_of(const Vector3& at, std::uint64_t before) {
     return before;
 }
 
-/// Warns of triangles that have the same corners as others, in any order.
+/// Warns of triangles that have the same corners as other triangles, in any order.
 void note_doubled(const TriangleMesh& mesh, const std::string& name, const RunContext& run) {
     std::vector<std::uint64_t> digits;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -184,7 +184,8 @@ class MeshDomain final : public NamedDomain {
         std::optional<Pair> best;
         double least = std::numeric_limits<double>::infinity();
         std::uint32_t first = 0;
-        std::vector<std::pair<std::uint32_t, Pair>> around;  // triangles around the point
+        // coinciding triangles with the point inside
+        std::vector<std::pair<std::uint32_t, Pair>> around;
         // Chooses, among adjacent triangles, the one whose forward map is nearest to the point.
         tree_.visit(at, reach, [&](std::uint32_t i, const Foot& foot) {
             if (dimension() == with_normal &&
@@ -209,14 +210,14 @@ class MeshDomain final : public NamedDomain {
 
   private:
     /// Selects one of several coinciding triangles by a hash of the point, so that each gets its
-    /// fraction.
+    /// fraction of the points.
     static Pair one_of(std::vector<std::pair<std::uint32_t, Pair>>& around, const Vector3& at) {
         std::ranges::sort(around, {}, &std::pair<std::uint32_t, Pair>::first);
         return around[Rng(digits_of(at, 0), 1).below(0, around.size())].second;
     }
 
-    /// Rows of numbers at the triangle's corners; those of its other points are interpolated
-    /// linearly.
+    /// Rows of point columns at the triangle's corners. Rows of its other points are linear
+    /// interpolations of these.
     std::array<std::vector<double>, 3> rows_at_corners(std::size_t i) const {
         const auto corners = mesh_.corners(i);
         const auto& [a, b, c] = corners;
@@ -246,7 +247,7 @@ class MeshDomain final : public NamedDomain {
         const double sum = at.weights[1] + at.weights[2];
         const double root = std::min(sum, 1.0);
         const double share = shares_.begin(at.triangle) + root * root * shares_.width(at.triangle);
-        const double end = shares_.end(at.triangle);  // start of the next triangle
+        const double end = shares_.end(at.triangle);  // where the next triangle begins
         return {std::min(share, end == 1 ? 1 : std::nextafter(end, 0)),
                 sum > 0 ? std::min(at.weights[1] / sum, 1.0) : 0};
     }

@@ -21,8 +21,8 @@ constexpr Param<Numbers> center_option{
 constexpr Param<Numbers> axis_option{
     {.name = "axis", .fallback = "0,0,1", .help = "Axis: x,y,z, of any length above 0"}};
 
-/// Returns --center. @throws Error(usage) if it is not three numbers, or so far from 0 that
-/// rounding destroys a shape of size `reach`
+/// Returns --center. @throws Error(usage) if the centre is not three numbers, or is so far from 0
+/// that rounding destroys a shape of size `reach`
 Vector3 center_of(const Values& options, double reach);
 
 /// Returns a frame whose z axis is --axis. @throws Error(usage) if this is not three numbers, or
@@ -38,7 +38,7 @@ Vector3 vector_of(const Param<Numbers>& option, const std::vector<double>& numbe
 Box box_about(const Vector3& middle, const Vector3& direction, double beyond, double along,
               double across);
 
-/// A sphere or ball of this radius about a centre.
+/// Sphere or ball.
 struct Sphere {
     double radius;
     Vector3 center;

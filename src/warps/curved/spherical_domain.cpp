@@ -14,8 +14,8 @@ double corner_volume(const Vector3& a, const Vector3& b, const Vector3& c) {
     const Vector3 ab = minus(b, a);
     const Vector3 bc = minus(c, b);
     const Vector3 ca = minus(a, c);
-    // Uses the corner between the two shorter edges, since the longest difference has lost digits
-    // of the short ones.
+    // Starts from the corner between the two shorter edges, since rounding of the longest edge's
+    // difference is large relative to the short edges.
     const double longest = std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)});
     if (dot(bc, bc) == longest) return dot(a, cross(ca, ab));
     if (dot(ca, ca) == longest) return dot(b, cross(ab, bc));
@@ -75,7 +75,7 @@ double SphericalDomain::edge_top(std::size_t i, const Vector3& up) const {
 }
 
 std::array<double, 3> SphericalDomain::axial(const Vector3& w) const {
-    // Sums over edges: w . n times the integrals of (w . v)^0, ^1, ^2.
+    // Sums over the edges, of w . n times the integrals of (w . v)^0, ^1, ^2 along the edge.
     std::array<double, 3> along{};
     for (std::size_t i = 0; i < corners_.size(); ++i) {
         const Vector3& from = corners_[i];

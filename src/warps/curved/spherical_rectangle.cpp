@@ -7,8 +7,8 @@
 //
 //     h(y) = y / sqrt(x^2 + y^2 + z^2),    sin(elevation) = h(y0) + xi1 (h(y1) - h(y0))
 //
-// The solid angle from x = -infinity to x is that of a triangle with its apex on the -x axis, of
-// the angle Delta = kappa0 - kappa1, cot(kappa_i) = y_i / z: half of it is H with
+// The solid angle from x = -infinity to x is that of a triangle with its apex on the -x axis, where
+// its angle is Delta = kappa0 - kappa1, cot(kappa_i) = y_i / z. Half of this solid angle is H with
 //
 //     tan H = g0 g1 z (y1 - y0) / ((w0 w1)^2 + g0 g1 (z^2 + y0 y1)),
 //     g_i = x + sqrt(x^2 + w_i^2),  w_i^2 = y_i^2 + z^2
@@ -88,7 +88,7 @@ struct Rectangle {
 class Urena {
   public:
     explicit Urena(const Rectangle& rectangle) : seen_(rectangle) {
-        // Flipped to keep digits: mostly x <= 0 and y >= 0.
+        // To keep digits, x and y are negated if necessary, so that mostly x <= 0 and y >= 0.
         const auto turn = [](double& low, double& high, Vector3& along) {
             low = -std::exchange(high, -low);
             along = times(along, -1);
@@ -108,8 +108,8 @@ class Urena {
         w1_ = std::sqrt(seen_.y1 * seen_.y1 + z * z);
         before_ = half_up_to(seen_.x0);
         behind_ = half_up_to(-seen_.x1);
-        // Two triangles, if small: their sum loses no digits. The diagonal of a large rectangle may
-        // be near 180 degrees, where triangles are ill-conditioned.
+        // A small solid angle is the sum of two triangles, which loses no digits. The diagonal of a
+        // large rectangle may be near 180 degrees, where triangles are ill-conditioned.
         const auto c = seen_.corners();
         half_ = half_area_turns(c[0], c[1], c[2]) + half_area_turns(c[0], c[2], c[3]);
         if (half_ > 0.01) half_ = half_up_to(seen_.x1) - before_;
@@ -129,7 +129,7 @@ class Urena {
         const double root =
             h.sin * g.sin * sine_of_sum(h, g, low_, high_) * sine_of_sum(g, h, low_, high_);
         double across = 2 * std::sqrt(std::max(root, 0.0));
-        const bool before = along * seen_.z < across * seen_.x0;  // true only by rounding
+        const bool before = along * seen_.z < across * seen_.x0;  // x < x0, by rounding only
         const bool behind = along * seen_.z > across * seen_.x1;
         along = before ? seen_.x0 : behind ? seen_.x1 : along;
         across = before || behind ? seen_.z : across;
@@ -201,7 +201,7 @@ class Urena {
         double above;
     };
 
-    /// Gaps of a point with the given y at x = z tan(phi).
+    /// Gaps for the elevation of the plane's point with this y and x = z tan(phi).
     Gaps gaps(double y, double cos_phi) const {
         const double up = y * cos_phi;
         const double size = std::sqrt(up * up + seen_.z * seen_.z);
@@ -225,7 +225,8 @@ class Urena {
     CosSin both_{};  ///< cosine and sine of the sum of both angles
 };
 
-/// @throws Error(usage) unless these are the edges of a rectangle
+/// @throws Error(usage) unless ex and ey, given by their lengths and the cosine between them, are
+/// the edges of a rectangle
 void check_edges(const Table& table, double size_x, double size_y, double cosine) {
     if (!(size_x > 0 && size_y > 0))
         fail(ErrorKind::usage, "--edges: {} has an edge of length 0", format_value(table));
@@ -235,7 +236,7 @@ void check_edges(const Table& table, double size_x, double size_y, double cosine
              format_value(table), cosine);
 }
 
-/// The rectangle of the options, in units of the largest coordinate. @throws Error(usage)
+/// The rectangle given by the options, in units of the largest coordinate. @throws Error(usage)
 Rectangle rectangle_of(const Values& options) {
     const Table table = options[edges];
     if (table.size() != 2 || table[0].size() != 3)

@@ -2,9 +2,9 @@
 //
 // Finds the triangles of a mesh that a point lies on, with Boost's R-tree of their bounding boxes.
 //
-// Shape   any number of triangles, also without area.
+// Shape   any number of triangles, also degenerate ones.
 // Cost    O(n log n) to build; O(log n) per point if the mesh's triangles are well spread.
-// Promise finds all triangles within the distance, and only these; in unspecified order.
+// Promise visit() finds exactly the triangles within the given distance, in unspecified order.
 #pragma once
 
 // Boost.Geometry includes deprecated headers, which would print notes.

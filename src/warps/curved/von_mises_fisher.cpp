@@ -5,7 +5,7 @@
 //
 //     density kappa exp(kappa cos theta) / (4 pi sinh kappa);    kappa = 0: uniform
 //
-// With u = xi0 the probability of the cone about the axis, longitude 2 pi xi1 and
+// xi0 is the probability of the cone about the axis within theta. The longitude is 2 pi xi1, and
 //
 //     1 - cos theta = -log1p(xi0 expm1(-2 kappa)) / kappa        where theta <= 90 degrees,
 //     1 + cos theta =  log1p((1 - xi0) expm1(2 kappa)) / kappa   beyond,
@@ -103,7 +103,7 @@ class Fisher {
 
     double kappa_;
     double near_factor_ = -1;  ///< expm1(-2 kappa)
-    double far_factor_ = 0;    ///< expm1(2 kappa), if it is used
+    double far_factor_ = 0;    ///< expm1(2 kappa); 0 if kappa > 20
     double turn_ = 0.5;  ///< xi0 at 90 degrees; 2 if the formula for larger angles is not used
     double last_ = 2;    ///< 1 - cos theta at xi0 = 1
 };

@@ -4,10 +4,11 @@
 // independently, or onto values assigned to the outcomes:
 //
 //     inversion  the first outcome with p_0 + ... + p_i > xi
-//     alias      slot i = floor(m xi): outcome i where m xi - i < q_i, else its alias a_i; the m
-//                slots hold p_i m = q_i + sum over a_j = i of (1 - q_j)
+//     alias      slot i = floor(m xi) gives outcome i if m xi - i < q_i, else its alias a_i, with
+//                m p_i = q_i + sum of (1 - q_j) over all slots j with a_j = i
 //
-// Two coordinates of the same distribution are independent, like two dice: each pair has 1/36.
+// Two coordinates of the same distribution are independent, like two dice: any pair has probability
+// 1/36.
 //
 // Shape   any number of coordinates; 1 to 2^24 outcomes.
 // Strata  inversion: xi is used directly, and outcomes are in order, so that n strata give each
@@ -48,9 +49,9 @@ constexpr Param<Choice> method{
 constexpr Param<bool> normalize{.name = "normalize",
                                 .help = "Divide the probabilities by their sum"};
 
-/// Distribution over the outcomes.
+/// Distribution over the outcomes 0 ... m - 1, or over the values assigned to them.
 struct Outcomes : LineDistribution {
-    std::vector<double> weight;  ///< probability
+    std::vector<double> weight;  ///< probability of each outcome
     std::vector<double> value;
     GuideTable sums;                 ///< cumulative probabilities; the last is 1
     std::vector<std::size_t> order;  ///< indices of the outcomes, sorted by value
@@ -59,7 +60,7 @@ struct Outcomes : LineDistribution {
 
     std::size_t count() const { return value.size(); }
 
-    /// The outcome with this value, or count().
+    /// Index of the outcome with the value x; count() if there is none.
     std::size_t find(double x) const {
         const auto at =
             std::ranges::lower_bound(order, x, {}, [&](std::size_t i) { return value[i]; });
@@ -164,7 +165,7 @@ Outcomes::Outcomes(const Values& options)
     sums = GuideTable(sums_to_1(weight), 2 * count());
 }
 
-/// Vose's method: fills short slots from outcomes that have more than one slot.
+/// Vose's method: slots i with m p_i < 1 are filled up by outcomes with m p_i > 1.
 ByAlias::ByAlias(const Values& options) : Outcomes(options) {
     const std::size_t m = count();
     share.resize(m);
@@ -187,7 +188,7 @@ ByAlias::ByAlias(const Values& options) : Outcomes(options) {
         small.push_back(l);
     }
     for (const std::uint32_t i : large) share[i] = 1;
-    for (const std::uint32_t i : small) {  // short only by rounding
+    for (const std::uint32_t i : small) {  // below 1 only by rounding
         if (weight[i] > 0)
             share[i] = 1;
         else

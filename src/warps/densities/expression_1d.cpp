@@ -13,7 +13,8 @@
 //         the default tolerance.
 // Promise no probability is off by more than the tolerance. density() is the formula itself divided
 //         by its integral, computed by Boole's rule on the pieces. A round trip returns xi0 within
-//         1e-15 times the ratio of largest to mean density. No points where f is 0 next to a jump.
+//         1e-15 times the ratio of largest to mean density. If f is 0 on one side of a jump, no
+//         points fall there.
 
 #include <algorithm>
 #include <cmath>
@@ -59,8 +60,8 @@ LineRange range_of(const Values& options) {
     return out;
 }
 
-/// The domain's cells have nearly equal mass, according to the table; probability() computes it
-/// from the formula.
+/// Cells of this domain have nearly equal mass according to the table; probability() computes the
+/// mass of a cell from the formula.
 class ByFormula final : public LineDistribution {
   public:
     ByFormula(Expression formula, const LineRange& ends, double within, const RunContext& run)
@@ -93,7 +94,7 @@ class ByFormula final : public LineDistribution {
         return table_.moments_of([this](double x) { return at(x); }, total_.value);
     }
 
-    /// Pieces of the table without mass are gaps; their ends are accurate to the tolerance.
+    /// Excludes pieces of the table without mass; the ends of gaps are accurate to the tolerance.
     Positive positive() const override { return all_of(table_.positive_intervals()); }
 
   private:
@@ -119,7 +120,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
         fail(ErrorKind::usage, "--density: no formula given; expected one in x, such as 'exp(-x)'");
     const LineRange ends = range_of(want.options);
     Expression f(density.name, want.options[density], 1);
-    Values plain = want.options;  // without blanks, since a spec is one word
+    Values plain = want.options;  // spec without blanks: it is one word
     plain.put(density.name, f.text());
     const auto law =
         std::make_shared<const ByFormula>(std::move(f), ends, want.options[tolerance], want.run);

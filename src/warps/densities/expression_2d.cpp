@@ -15,8 +15,8 @@
 //         s if f jumps along an oblique line; the time is proportional to 1 / tolerance.
 // Promise no probability is off by more than about the tolerance, to which the table approximates
 //         f. The points' density is the table's, up to rounding; the domain's is f over its
-//         integral by quadrature. A round trip returns xi within 1e-13. No points where f is 0 next
-//         to a jump, unless the 9 points sampled per patch miss that.
+//         integral by quadrature. A round trip returns xi within 1e-13. If f is 0 on one side of a
+//         jump, no points fall there, unless the 9 values sampled per patch miss the zeros.
 // Beware  F(x, y) / F(x, y_max) would be wrong: it is the distribution of y given X <= x.
 
 #include <array>
@@ -70,7 +70,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
              "--density: no formula given; expected one in x and y, such as 'x + y'");
     const Box box = parse_box(want.options[bounds], 2);
     Expression f(density.name, want.options[density], 2);
-    Values plain = want.options;  // without blanks, since a spec is one word
+    Values plain = want.options;  // spec without blanks: it is one word
     plain.put(density.name, f.text());
     const auto domain = std::make_shared<FormulaBox>(
         format_spec(want.warp.name, plain, want.warp.options), std::move(f), box);

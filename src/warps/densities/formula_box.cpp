@@ -13,19 +13,19 @@
 namespace stipple::warps {
 namespace {
 
-// Quadrature is nested, one coordinate inside another; so in three dimensions each coordinate has
-// fewer intervals. The initial intervals are numerous enough to detect narrow peaks.
+// Quadrature is nested, one coordinate inside another; to limit the time, coordinates get fewer
+// intervals in more dimensions. The initial intervals are numerous enough to detect narrow peaks.
 Effort effort_for(std::size_t dimension) {
     if (dimension <= 1) return {1e-12, 5000, 1023};
     if (dimension == 2) return {1e-9, 150, 25};
     return {1e-5, 12, 5};
 }
 
-/// @param share upper limit for the cell's extent along an axis, as a fraction of the box's
+/// @param share upper limit for the cell's extent along an axis, as a fraction of the box's extent
 Effort effort_in_cell(std::size_t dimension, double share) {
     if (dimension <= 1) return {1e-10, 200};
     if (dimension == 3) return {1e-4, 5};
-    // Each interval takes 17 values, so that there are about 512 over the box.
+    // The first division of the box's whole extent samples about 512 values: 17 per interval.
     const auto first = 2 * static_cast<std::size_t>(26 * std::clamp(share, 0.0, 1.0)) + 1;
     return {1e-6, 80, std::max<std::size_t>(first, 3)};
 }
@@ -34,7 +34,7 @@ Effort effort_in_cell(std::size_t dimension, double share) {
 /// six times the standard error, from the means of consecutive batches.
 Estimate mean_integral(const Expression& f, const Box& box) {
     constexpr std::size_t stretches = 32;
-    constexpr std::size_t places = 4096;  // in each batch
+    constexpr std::size_t places = 4096;  // points in each batch
     constexpr double steps[3][3] = {{0.6180339887498949},
                                     {0.7548776662466927, 0.5698402909980532},
                                     {0.8191725133961645, 0.6710436067037893, 0.5497004779019703}};
@@ -75,7 +75,8 @@ FormulaBox::FormulaBox(std::string spec, Expression f, Box box)
 Estimate FormulaBox::integral() const {
     std::call_once(once_, [this] {
         const std::string what = "--density: " + f_.text();
-        // If quadrature misses a narrow peak, its result is too far from that of mean_integral().
+        // If quadrature misses a narrow peak, its result is too far from that of mean_integral(),
+        // and it is repeated with more intervals.
         constexpr int most_tries = 4;
         const Estimate mean = mean_integral(f_, box_);
         Effort effort = effort_for(dimension());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A box with the density given by a formula over its integral: the domain of expression-2d and
+// A box with a density given by a formula, divided by its integral: the domain of expression-2d and
 // rejection. Its cells are boxes; their probabilities are computed by quadrature
 // (math/densities/quadrature.hpp).
 #pragma once
@@ -38,7 +38,7 @@ class FormulaBox final : public NamedDomain {
     /// reached, and in three dimensions.
     std::optional<Moments> moments() const override;
 
-    /// Finds gaps on a grid of cells, and the measure of the rest by quadrature.
+    /// Finds gaps on a grid of cells, and the measure of the remaining region by quadrature.
     Support support() const override;
 
     const Expression& formula() const { return f_; }

@@ -12,8 +12,9 @@
 //
 // All components must give directions (unit vectors of the plane or space), or all must fill the
 // same number of dimensions. None may drop points, which would change the weights. The domain is
-// the whole sphere or space. Its cells are zones of height and longitude; in space, boxes in the
-// normal probabilities of (x - middle) / (width / 4), relative to the bounding box.
+// the whole sphere or space. On the sphere its cells are zones of height and longitude. In space
+// they are boxes in the coordinates Phi((x - middle) / (width / 4)), with the middle and width of
+// the bounding box.
 //
 // Shape   as many unit coordinates as the components take, and as many coordinates as they give.
 // Strata  xi0 is used directly, divided by the weights and rescaled: n strata give each component n
@@ -96,8 +97,8 @@ class MixtureDomain final : public NamedDomain {
         });
     }
 
-    /// Measure of all directions if a part covers them all, or of the box if every part fills it.
-    /// Otherwise the union of the parts is unknown, and the measure is infinite.
+    /// Measure of all directions if a component covers them all; of the box if every component
+    /// fills it. Otherwise the union of the components is unknown, and the measure is infinite.
     double measure() const override {
         const auto has_all = [&](const DomainPtr& part) {
             return part->measure() > (1 - 1e-12) * all_directions();
@@ -106,7 +107,7 @@ class MixtureDomain final : public NamedDomain {
         return fills_box_ ? volume_of(box_) : std::numeric_limits<double>::infinity();
     }
 
-    /// Union of the parts' supports.
+    /// Union of the components' supports.
     Support support() const override {
         const double all = measure();
         std::vector<Support> supports;
@@ -182,7 +183,7 @@ class MixtureDomain final : public NamedDomain {
     }
 
   private:
-    /// Whether a part fills the box around all parts.
+    /// Whether a component fills the bounding box of all components.
     bool fills(const Domain& part) const {
         return part.bounding_box() == box_ &&
                std::abs(part.measure() - volume_of(box_)) <= 1e-12 * volume_of(box_);
@@ -194,14 +195,14 @@ class MixtureDomain final : public NamedDomain {
     double middle(std::size_t k) const { return box_.low[k] + 0.5 * box_.extent(k); }
     double scale(std::size_t k) const { return box_.extent(k) > 0 ? 0.25 * box_.extent(k) : 1; }
 
-    /// Coordinate k in space of an edge at u in the cube.
+    /// Coordinate k in space of a cell's edge whose cube coordinate is u.
     double edge(double u, std::size_t k) const {
         if (u <= 0 || u >= 1)
             return std::copysign(std::numeric_limits<double>::infinity(), u - 0.5);
         return middle(k) + scale(k) * normal_quantile(u);
     }
 
-    /// Sum over the parts of weight times mass(part).
+    /// Sum over the components of weight times mass(component).
     template <class Mass>
     Estimate weighted(const Mass& mass) const {
         Estimate sum;
@@ -210,8 +211,8 @@ class MixtureDomain final : public NamedDomain {
         return sum;
     }
 
-    /// Probability of a zone of directions; parts without a sphere_shape() have such zones as their
-    /// own cells.
+    /// Probability of a zone of directions; components without a sphere_shape() have these zones as
+    /// cells.
     static Estimate zone_mass(const Domain& part, const Box& cell) {
         const auto shape = part.sphere_shape();
         if (!shape) return part.probability(cell);
@@ -222,7 +223,7 @@ class MixtureDomain final : public NamedDomain {
     std::vector<DomainPtr> parts_;
     std::vector<double> weights_;
     Box box_;
-    bool fills_box_ = false;  ///< every part fills the box
+    bool fills_box_ = false;  ///< whether every component fills the box
 };
 
 class Mixture final : public Mapping {
@@ -278,7 +279,7 @@ class Mixture final : public Mapping {
         std::vector<std::uint8_t> keep;
     };
 
-    /// Computes the row of the cube that component c receives.
+    /// Copies a row of the cube, with its first coordinate rescaled for component c.
     void stretch(std::size_t c, std::span<const double> row, std::span<double> to) const {
         std::ranges::copy(row, to.begin());
         const double u = (row[0] - shares_.begin(c)) / shares_.width(c);
@@ -327,7 +328,7 @@ const Warp& warp_of(const Spec& spec) {
                    "--components: there is no warp '{}'", spec.name);
 }
 
-/// Whether random points become unit vectors.
+/// Tests with random points whether all images are unit vectors.
 bool gives_directions(const Mapping& mapping) {
     constexpr std::size_t n = 16;
     const std::size_t m = mapping.domain()->dimension();

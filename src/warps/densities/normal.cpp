@@ -8,7 +8,7 @@
 // so that x_k depends only on xi_1 ... xi_k. The inverse is z = L^-1 (x - m), xi_k = Phi(z_k). This
 // is Rosenblatt's transformation.
 //
-// Shape   any number of coordinates: as given, or as the mean or the covariance has.
+// Shape   any number of coordinates: those available, or as many as the mean or the covariance has.
 // Strata  xi is used directly, not as 1 - xi: small xi is far below the mean. The first and the
 //         last stratum are unbounded. 0 is replaced by 2^-54, the middle of the random numbers'
 //         step at 0, and 1 by 1 - 2^-55: 8.2924 standard deviations below and 8.3744 above the
@@ -56,7 +56,7 @@ constexpr Param<Numbers> covariance{
      .fallback = {},
      .help = "Covariance matrix, instead of deviations: d x d numbers, row after row: 2,1 1,2"}};
 
-/// Mean and lower factor; a diagonal factor is stored as its diagonal.
+/// Mean and lower Cholesky factor; if diagonal, only the factor's diagonal is stored.
 struct Shape {
     std::vector<double> mean;
     std::vector<double> factor;
@@ -69,7 +69,7 @@ struct Shape {
     double reach(std::size_t k) const { return std::sqrt(covariance(k, k)); }
 };
 
-/// (L L^T)_ij.
+/// Element (i, j) of L L^T.
 double Shape::covariance(std::size_t i, std::size_t j) const {
     if (diagonal()) return i == j ? factor[i] * factor[i] : 0;
     double sum = 0;
@@ -78,7 +78,7 @@ double Shape::covariance(std::size_t i, std::size_t j) const {
     return sum;
 }
 
-/// Replaces z by m + s z.
+/// Replaces z by m + s z in each row, with a scale s for each coordinate.
 STIPPLE_WIDE void spread(const double* middle, const double* scale, std::size_t d,
                          std::span<double> rows) {
     for (std::size_t i = 0; i < rows.size(); i += d)
@@ -165,7 +165,8 @@ class NormalDomain final : public NamedDomain {
     }
 
   private:
-    /// Probability of the box in the coordinates from k on, given the standardised ones before k.
+    /// Probability of the box in the coordinates k, k + 1, ..., given z_0 ... z_(k-1), the
+    /// standardised coordinates before k.
     Estimate mass_from(const Box& box, std::vector<double>& z, std::size_t k) const {
         const std::size_t d = dimension();
         if (k == d) return {1, 0};
@@ -188,7 +189,7 @@ class NormalDomain final : public NamedDomain {
             return rest.value * stipple::exponential(-0.5 * x * x) /
                    std::sqrt(2 * std::numbers::pi);
         };
-        constexpr double far = 9;  // probability beyond: 2e-19
+        constexpr double far = 9;  // the probability beyond is 2e-19
         Estimate mass = integrate_smooth(slice, std::max(low, -far), std::min(high, far));
         mass.error += inner;
         return mass;
@@ -217,7 +218,7 @@ std::vector<double> deviations_of(const Values& options, std::size_t d) {
     return numbers;
 }
 
-/// Lower factor of --covariance. @throws Error(usage) naming the defect of the matrix
+/// Lower Cholesky factor of --covariance. @throws Error(usage) that names the defect of the matrix
 std::vector<double> factor_of(const std::vector<double>& matrix, std::size_t d) {
     if (matrix.size() != d * d)
         fail(ErrorKind::usage, "--covariance: expected {} x {} numbers, row after row; {} given", d,

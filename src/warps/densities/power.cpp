@@ -62,7 +62,7 @@ template <Root root>
     if constexpr (root == Root::none) return y;
     if constexpr (root == Root::square) return std::sqrt(y);
     if constexpr (root == Root::cube) return cube_root(y);
-    // The error is |log x| units in the last place, at most 40, which is enough here.
+    // The error is |log x| units in the last place, at most 40, which is accurate enough here.
     const double root_of_y = stipple::exponential(logarithm(y) * inverse_p);
     return y > 0 ? root_of_y : 0;
 }
@@ -97,8 +97,8 @@ struct PowerLaw : LineDistribution, Interval {
     LineMoments moments() const override;
 
   private:
-    /// E |x / unit|^n times a constant, where s = p + n, for an interval on one side of 0. Its ends
-    /// are 1 and `other` times `unit`.
+    /// E |x / unit|^n times a constant, where s = p + n, for an interval on one side of 0. The
+    /// interval's ends are 1 and `other` times `unit`.
     static double one_sided_sum(double s, double other) {
         if (other == 0) return 1 / s;
         const double log = logarithm(other);
@@ -148,11 +148,12 @@ template <Root root>
 struct OneSided final : PowerLaw {
     using PowerLaw::PowerLaw;
 
-    static constexpr bool narrow = root == Root::logarithm;  ///< the form for r > 1/2
+    /// whether to use the form for r > 1/2
+    static constexpr bool narrow = root == Root::logarithm;
 
     double heavy = 1;        ///< magnitude of the end with the larger |x|^p
     double sign = 1;         ///< sign of x
-    bool heavy_last = true;  ///< the heavier end is b
+    bool heavy_last = true;  ///< whether the heavier end is b
     double w_at_0 = 1;
     double slope = -1;
     double r = 0;
@@ -253,7 +254,7 @@ std::unique_ptr<Mapping> mapping_of(const Interval& interval, const WarpRequest&
 }
 
 /// Checks that at most 1e-14 of the mass is below the smallest double, if the range ends at 0;
-/// x^-0.99, for example, has a large fraction there. @throws Error(usage)
+/// x^-0.99, for example, has a large fraction of its mass there. @throws Error(usage)
 void require_numbers_near_0(double k, double size) {
     constexpr double smallest = std::numeric_limits<double>::min();
     const double depth = logarithm(smallest / size);

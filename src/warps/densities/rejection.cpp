@@ -10,11 +10,11 @@
 // Shape   d + 1 unit coordinates, where d = 1 to 3 is the number of ranges in --bounds; d
 //         coordinates.
 // Strata  coordinates keep their strata, except for the points dropped; the last coordinate decides
-//         which.
+//         which points these are.
 // Cost    one evaluation of f per point, about 100 ns.
 // Promise exact for any f below the bound. A value above the bound is an error that reports the
-//         place and the value. density() is f over its integral by quadrature.
-// Beware  f above the bound goes unnoticed if no point falls there.
+//         point and the value. density() is f over its integral by quadrature.
+// Beware  f above the bound goes unnoticed if no point falls where it is above.
 // Source  J. von Neumann, "Various techniques used in connection with random digits", NBS Applied
 //         Mathematics Series 12 (1951) 36-38.
 

@@ -14,8 +14,8 @@
 //         equal probability in the same order.
 // Cost    O(1) a coordinate on average, with a guide table; about 5 ns on one core.
 // Promise x in [first, last], last only for xi = 1; never inside a piece of mass 0. A round trip
-//         returns the same xi within 1e-14 times max|x| / h of the piece. The same bits on every
-//         machine.
+//         returns the same xi within 1e-14 times max|x| / (width of the piece). The same bits on
+//         every machine.
 
 #include <array>
 #include <cmath>
@@ -72,7 +72,7 @@ struct Tabulated final : LineDistribution {
     Positive positive() const override { return all_of(table.positive_intervals()); }
 };
 
-/// Reads the table's rows and orders them; `name` is for messages. @throws Error
+/// Returns the table's rows, from --rows or --file; `name` is for messages. @throws Error
 Table table_of(const Values& options, const std::string& name, const RunContext& run) {
     Table table = options[rows];
     if (options.given(file)) {
@@ -118,7 +118,7 @@ LineTable table_from(const Values& options, const RunContext& run) {
     for (std::size_t i = 0; i + 1 < rows_given.size(); ++i) {
         const auto& row = rows_given[i];
         const auto& next = rows_given[i + 1];
-        if (!(row[0] < next[0])) continue;        // a jump
+        if (!(row[0] < next[0])) continue;        // a jump between two rows of equal x
         pieces.push_back({.x_low = row[0] + 0.0,  // + 0.0 avoids -0 in the points
                           .x_high = next[0] + 0.0,
                           .f_low = row[1],

@@ -5,8 +5,7 @@
 //     x = low + y (high - low),    I_y(a, b) = xi,    density of y: y^(a-1) (1-y)^(b-1) / B(a, b)
 //
 // Shape   any number of coordinates; each parameter is one number for all of them, or one for each.
-// Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability in the
-//         same order.
+// Strata  xi is used directly, not as 1 - xi: strata become equally probable intervals, in order.
 // Cost    O(1) a coordinate; about 1.5 us on one core.
 // Promise x in [low, high], at the ends only for xi = 0 and 1, and never where the density is
 //         infinite; quantiles within a relative 1e-13 in both tails. The same bits on every

@@ -9,9 +9,8 @@
 // Shape   any number of coordinates; mu and sigma, or mean m and deviation s of x itself: sigma^2 =
 //         log(1 + (s / m)^2), mu = log m - sigma^2 / 2; each is one number for all coordinates, or
 //         one for each.
-// Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability in the
-//         same order. The first and the last are unbounded; 0 is replaced by 2^-54 and 1 by 1 -
-//         2^-55.
+// Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability, in
+//         order. The first and the last are unbounded; 0 is replaced by 2^-54 and 1 by 1 - 2^-55.
 // Cost    O(1) a coordinate; about 15 ns on one core.
 // Promise x within a relative 1e-15 (1 + |log x|). The same bits on every machine.
 

@@ -6,9 +6,8 @@
 //     for nu degrees of freedom; nu = 1 is Cauchy's distribution
 //
 // Shape   any number of coordinates; each parameter is one number for all of them, or one for each.
-// Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability in the
-//         same order. The first and the last are unbounded; 0 is replaced by 2^-54 and 1 by 1 -
-//         2^-55.
+// Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability, in
+//         order. The first and the last are unbounded; 0 is replaced by 2^-54 and 1 by 1 - 2^-55.
 // Cost    O(1) a coordinate; about 4 us on one core.
 // Promise quantiles within a relative 1e-13 in both tails. The same bits on every machine for the
 //         same release of Boost, whose functions are computed through math/functions.

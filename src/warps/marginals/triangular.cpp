@@ -7,8 +7,7 @@
 //     density 2 / (high - low) at the mode, decreasing linearly to 0 at both ends.
 //
 // Shape   any number of coordinates; each parameter is one number for all of them, or one for each.
-// Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability in the
-//         same order.
+// Strata  xi is used directly, not as 1 - xi: strata become equally probable intervals, in order.
 // Cost    O(1) a coordinate; about 2 ns on one core.
 // Promise x in [low, high], at the ends only for xi = 0 and 1. The same bits on every machine.
 

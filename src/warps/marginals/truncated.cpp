@@ -10,14 +10,13 @@
 //
 // Shape   any number of coordinates; one end or both; each end is one number for all coordinates,
 //         or one for each.
-// Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability in the
-//         same order.
+// Strata  xi is used directly, not as 1 - xi: strata become equally probable intervals, in order.
 // Cost    that of the distribution, plus about 15 ns a coordinate on one core.
 // Promise x in [a, b]. For continuous distributions the interval must have a probability above
 //         1e-290; discrete ones are cut exactly. The same bits on every machine.
 // Beware  x is accurate relative to the interval, not to its ends: to 1e-15 of the width. If the
-//         interval has only a fraction s of the probability beyond its ends, to 1e-16 / s of the
-//         width.
+//         interval's probability is only s times that beyond its ends, x is accurate to 1e-16 / s
+//         of the width.
 
 #include <algorithm>
 #include <limits>

@@ -5,8 +5,7 @@
 //     x = low + xi (high - low),    density 1 / (high - low)
 //
 // Shape   any number of coordinates; each parameter is one number for all of them, or one for each.
-// Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability in the
-//         same order.
+// Strata  xi is used directly, not as 1 - xi: strata become equally probable intervals, in order.
 // Cost    O(1) a coordinate; about 1 ns on one core.
 // Promise x in [low, high], and high only by rounding. The same bits on every machine.
 

@@ -14,8 +14,8 @@
 namespace stipple::warps {
 
 /// @param shared returns the area of the shape within a box. The box is given by its corners,
-/// counterclockwise from the lowest, and is inside the shape's bounding box. Far from 0, the error
-/// is the rounding of coordinates, which is coarse relative to the shape's size.
+/// counterclockwise from the lower left one, and is inside the shape's bounding box. For shapes far
+/// from 0, the result's error is the rounding of coordinates.
 template <class Shared>
 Estimate area_share(const Box& box, const Domain& shape, const Shared& shared) {
     const Box around = shape.bounding_box();

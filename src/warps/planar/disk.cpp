@@ -14,7 +14,7 @@
 // Strata  xi0 is used directly, not as 1 - xi0: small xi0 is near the centre (polar, naive) or left
 //         (concentric, rejection). xi1 turns from the x axis towards the y axis (polar, naive).
 //         With polar, strata become sectors of rings; concentric keeps neighbours adjacent;
-//         rejection preserves strata and loses those outside.
+//         rejection preserves strata and drops those outside.
 // Cost    O(1) a point; about 5 ns forward, 9 ns inverse on one core.
 // Promise density 1 / (pi R^2), except for naive: 1 / (2 pi R r), infinite at the centre. Points
 //         lie in the closed disk up to 16 epsilon (R + |cx| + |cy|). A round trip returns the same

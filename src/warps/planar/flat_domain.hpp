@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A triangle or parallelogram in the plane or in space, uniform by area: everything that follows
-// from coordinates along the two edges at its first corner (math/geometry/edge_frame.hpp).
+// Domain of a triangle or parallelogram in the plane or in space, uniform by area. It is computed
+// from coordinates along the two edges at the first corner (math/geometry/edge_frame.hpp).
 #pragma once
 
 #include <array>
@@ -47,7 +47,7 @@ class FlatDomain : public NamedDomain {
         return box;
     }
 
-    /// Only for shapes in the plane.
+    /// Requires a shape in the plane.
     std::optional<Estimate> box_mass(const Box& box) const final {
         return area_share(box, *this, [&](const Polygon& window) {
             Polygon shape;

@@ -38,7 +38,7 @@ class ParallelogramDomain final : public FlatDomain {
   public:
     using FlatDomain::FlatDomain;
 
-    /// Writes the coordinates along the edges.
+    /// Writes the point's coordinates along the edges.
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         const auto [s, t] = frame().coordinates(space_point(point));
         put_clamped<2>({s, t}, cube);
@@ -96,7 +96,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const Vector3 c = corner_of(want.options, d);
     const Vector3 a = space_point(table[0]);
     const Vector3 b = space_point(table[1]);
-    double size = 0;  // upper limit for coordinates
+    double size = 0;  // upper limit for the magnitude of coordinates
     for (std::size_t k = 0; k < 3; ++k)
         size = std::max(size, std::abs(c[k]) + std::abs(a[k]) + std::abs(b[k]));
     if (size > 1e150)

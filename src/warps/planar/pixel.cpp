@@ -34,9 +34,9 @@ constexpr Param<Numbers> pixel_index{{.name = "pixel",
                                       .help = "Put all points into this pixel, counted from 0,0: "
                                               "i,j; default: spread them over the whole image"}};
 
-constexpr std::int64_t most_pixels = std::int64_t{1} << 31;  // along one side
+constexpr std::int64_t most_pixels = std::int64_t{1} << 31;  // limit for the pixels along one side
 
-/// corner + x rounded towards the corner, so that x < size stays inside; x >= 0.
+/// Returns corner + x for x >= 0, rounded towards the corner so that x < size stays inside.
 double offset_from(double corner, double x) {
     const double sum = corner + x;
     return sum - corner > x ? std::nextafter(sum, 0) : sum;

@@ -40,7 +40,7 @@
 
 namespace stipple::warps {
 
-/// Option --center, which all these shapes have.
+/// Option --center, which all placed shapes have.
 inline constexpr Param<Numbers> shape_center{
     {.name = "center", .fallback = "0,0", .help = "Centre of the shape: x,y"}};
 

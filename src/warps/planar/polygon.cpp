@@ -13,7 +13,7 @@
 // Shape   2 unit coordinates, 2 coordinates; any number of vertices.
 // Strata  xi0 and xi1 are used directly, not as 1 - xi: small xi0 is at the bottom, small xi1 left.
 //         Strata become pieces of horizontal bands; if a row has several parts, a stratum may lie
-//         in two of them. The map of a convex polygon is continuous.
+//         in two parts. The map of a convex polygon is continuous.
 // Cost    O(n log n) time and memory for n vertices; O(1) a point if its row crosses two edges, at
 //         most O(log(n)^3).
 // Promise density 1 / area. Points lie in the closed polygon up to 16 epsilon (largest coordinate).
@@ -80,8 +80,8 @@ std::vector<Ring> parse_rings(std::string_view text, const Source& source) {
     return rings;
 }
 
-/// Replaces the first line after each ring by `#`, which separates the sets of a file, and removes
-/// all other comments.
+/// Replaces the first blank or comment line after each ring by `#`, which separates the point sets
+/// of a file, and removes all other comments.
 std::string with_marks(std::string_view text) {
     std::string marked;
     bool in_ring = false;
@@ -109,7 +109,7 @@ std::vector<Ring> read_rings(const std::string& path, const Source& source, cons
     return rings;
 }
 
-/// Normalizes rings: no -0, and no vertex equal to the one before (cyclically).
+/// Normalizes rings: no -0, and no vertex equal to the preceding one (cyclically).
 void tidy(std::vector<Ring>& rings, const Source& source) {
     for (std::size_t r = 0; r < rings.size(); ++r) {
         Ring& ring = rings[r];
@@ -141,7 +141,7 @@ bool is_flat(const Ring& ring) {
     return std::ranges::all_of(ring, [&](PlanePoint p) { return turn(ring[1], p) == 0; });
 }
 
-/// Edges of the options' rings. Checks that they bound a polygon, but not that this has an area.
+/// Edges of the options' rings. Checks that they bound a polygon, but not that its area is above 0.
 /// @throws Error
 std::vector<RingSegment> edges_of(const Values& options, const Source& source,
                                   const RunContext& run) {

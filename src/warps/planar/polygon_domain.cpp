@@ -23,16 +23,16 @@ double x_at(const UpwardEdge& edge, double y) {
            (edge.high.x - edge.low.x) * ((y - edge.low.y) / (edge.high.y - edge.low.y));
 }
 
-/// The inside between two edges, from one height to another.
+/// Region between two edges, from one height to another.
 struct Trapezoid {
     UpwardEdge left;
     UpwardEdge right;
-    std::size_t bottom;  ///< index into the heights
+    std::size_t bottom;  ///< index of its lower height
     std::size_t top;
 };
 
-/// Sweep of a row upwards: keeps the edges that the row meets, and collects the trapezoids between
-/// them.
+/// Sweeps a horizontal row upwards: keeps the edges that the row meets, and collects the trapezoids
+/// between them.
 class TrapezoidSweep {
   public:
     TrapezoidSweep(std::span<const UpwardEdge> edges, std::span<const double> heights)
@@ -69,12 +69,12 @@ class TrapezoidSweep {
     struct State {
         std::set<std::size_t, ToRight>::iterator place = {};
         bool met = false;
-        bool left = false;           ///< the edge's right side is inside
+        bool left = false;           ///< whether the inside is on the edge's right
         std::size_t partner = none;  ///< the edge on the other side of an open trapezoid
-        std::size_t bottom = 0;      ///< start of that trapezoid
+        std::size_t bottom = 0;      ///< index of the height where that trapezoid starts
     };
 
-    /// Ends the edge's open trapezoid at a height.
+    /// Ends the edge's open trapezoid at the height with this index.
     void close(std::size_t edge, std::size_t height) {
         const std::size_t other = states_[edge].partner;
         if (other == none) return;
@@ -122,15 +122,15 @@ class TrapezoidSweep {
 };
 
 /// Relative height, measured from the end whose row has length w0, of the row that cuts off the
-/// fraction f of a slab's area at that end. The longer one of w0 and w1 must be 1.
+/// fraction f of a slab's area at that end. The longer of the lengths w0 and w1 must be 1.
 double height_share(double f, double w0, double w1) {
     const double root = std::sqrt((1 - f) * w0 * w0 + f * w1 * w1);
     const double null = f == 0;  // avoids 0 / 0 if w0 = 0, too
     return f * (w0 + w1) / (w0 + root + null);
 }
 
-/// The number in [0, 1] nearest to `share` that forward() maps into the piece [low, high) of
-/// `whole`, even if `share` is on the piece's edge.
+/// The number x in [0, 1] nearest to `share` for which x * whole is in [low, high), so that
+/// forward() finds the same slab even if `share` is on its edge.
 double share_within(double share, double whole, double low, double high) {
     double x = std::clamp(share, 0.0, 1.0);
     while (x < 1 && x * whole < low) x = std::nextafter(x, 1);
@@ -220,7 +220,7 @@ void PolygonDomain::cut_bands(const RunContext& run) {
         return a.node != b.node ? a.node < b.node : sum(a.part) < sum(b.part);
     });
 
-    std::vector<std::size_t> lowest(2 * leaves, none);  // lowest band at the node or above it
+    std::vector<std::size_t> lowest(2 * leaves, none);  // lowest band at each node or above it
     auto piece = pieces.begin();
     for (std::size_t node = 1; node < 2 * leaves; ++node) {
         lowest[node] = lowest[node / 2];
@@ -379,7 +379,7 @@ double PolygonDomain::along_row(const Row& row, double way) {
         low = middle;
         ++low[longest];
         const double end = part.right(cut.t);
-        if (!(x > left || end > right)) continue;  // a point where another part begins
+        if (!(x > left || end > right)) continue;  // a part of length 0, where another part begins
         left = x;
         right = end;
         passed = before;
@@ -404,7 +404,7 @@ void PolygonDomain::to_cube(std::span<const double> point, std::span<double> cub
     cube[1] = place_in_row(row_at(slab, y), p.x);
 }
 
-/// The part of a row nearest to x; the leftmost one if several are.
+/// The part of a row nearest to x; the leftmost one if several parts are equally near.
 PolygonDomain::Nearest PolygonDomain::nearest_part(const Row& row, double x) {
     Nearest nearest;
     for (const Cut& cut : row.all()) {

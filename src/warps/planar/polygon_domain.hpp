@@ -67,13 +67,13 @@ class PolygonDomain final : public NamedDomain {
     void from_cube(std::span<const double> cube, std::span<double> image) const;
 
   private:
-    /// The inside between two consecutive edges of a band, from left to right.
+    /// Region between two consecutive edges of a band, from left to right.
     struct Part {
         double left_bottom;
         double left_top;
         double right_bottom;
         double right_top;
-        double before_bottom = 0;  ///< length of the band's parts to the left, at the bottom
+        double before_bottom = 0;  ///< length of all parts further left, at the bottom
         double before_top = 0;
 
         double left(double t) const { return left_bottom + t * (left_top - left_bottom); }
@@ -90,9 +90,9 @@ class PolygonDomain final : public NamedDomain {
     struct Band {
         double bottom;
         double top;
-        std::size_t first;  ///< index of its first part in parts_
+        std::size_t first;  ///< index of the band's first part in parts_
         std::size_t last;
-        std::size_t above;  ///< the next band towards the root, or `none`
+        std::size_t above;  ///< index of the next band towards the root, or `none`
     };
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
     struct Slab {
@@ -153,7 +153,7 @@ class PolygonDomain final : public NamedDomain {
     const Slab& slab_around(PlanePoint p) const;
     double distance_to_rim(PlanePoint p) const;
 
-    std::vector<std::pair<PlanePoint, PlanePoint>> rim_;  ///< all edges
+    std::vector<std::pair<PlanePoint, PlanePoint>> rim_;  ///< all edges of the boundary
     std::vector<Slab> slabs_;
     std::vector<Band> bands_;
     std::vector<Part> parts_;

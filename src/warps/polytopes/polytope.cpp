@@ -12,9 +12,10 @@
 // Shape   as many coordinates as --bounds has ranges, or as are given; inequalities may couple up
 //         to 12, with up to 200000 faces and 10000 vertices.
 // Strata  of a coordinate in no inequality: xi is used directly. Among d coupled ones, the first xi
-//         selects the simplex, and its remainder is the position along the simplex's last edge; the
-//         others are the fractions of its vertices, 0 at the vertex. So strata of the first xi are
-//         pieces of adjacent simplices, and strata of several xi are cut where simplices meet.
+//         selects the simplex, and its remainder is the position along the simplex's last edge;
+//         each other xi determines the weight of one vertex and is 0 at this vertex. So strata of
+//         the first xi are pieces of adjacent simplices, and strata of several xi are cut where
+//         simplices meet.
 // Cost    about 20 ns a coordinate forward; about 500 ns a point in 4 dimensions for the inverse.
 //         Vertices and faces are computed once: below a millisecond for dozens, a second for the
 //         maximum.

@@ -38,8 +38,8 @@ constexpr auto bound = length_option("bound", 1, "Upper bound of the sum of coor
 constexpr std::size_t some_rows = 256;
 
 /// Subtracts a coordinate from the remainder of each row; `left` is the number of coordinates not
-/// yet made. For the last coordinate xi = 1 takes the whole remainder; for others it is replaced by
-/// the largest number below 1.
+/// yet made. xi = 1 takes the whole remainder for the last coordinate; for others xi = 1 is
+/// replaced by the largest number below 1.
 STIPPLE_WIDE [[gnu::flatten]] void break_off(double* x, double* rest, double left,
                                              std::size_t rows) {
     const double share = 1 / left;
