@@ -39,15 +39,15 @@ constexpr const char* word_of(Better better) {
     return better == Better::lower ? "lower" : better == Better::higher ? "higher" : "neither";
 }
 
-/// One result key of a report.
+/// One result of a report, by its key.
 struct ResultKey {
     std::string key;  ///< dotted; a part in capital letters is a placeholder for any name
     std::string help;
     bool always = true;           ///< false: reported only with some options
     std::string_view words = {};  ///< possible values, separated by |; empty: numbers, or any text
     Better better = Better::neither;
-    bool any_count = false;  ///< values of sets of different sizes can be compared
-    /// Sentences that a report page shows for these words; {} is replaced by the test's numbers.
+    bool any_count = false;  ///< whether sets of different sizes can be compared
+    /// Each word with its sentence on a report page; {} is replaced by the test's values.
     std::vector<std::pair<std::string_view, std::string_view>> sentences = {};
 };
 
@@ -84,7 +84,7 @@ class Accumulator {
     Accumulator& operator=(const Accumulator&) = delete;
     virtual ~Accumulator() = default;
 
-    /// Adds the next points of the set: arrival_batch() of them, except for the last batch. May use
+    /// Adds the next points of the set, arrival_batch() points or fewer in the last batch. May use
     /// the run's threads; the caller reports progress.
     virtual void add(std::span<const double> rows, const RunContext& run) = 0;
 
@@ -132,16 +132,16 @@ constexpr std::size_t arrival_batch(std::size_t dimension) {
 struct CurveKey {
     std::string_view key;
     std::string_view over;  ///< key of the list of its abscissas; empty: pairs of coordinates
-    /// Values for independent points: a number, or the key of a list. Empty: unknown.
+    /// Curve for independent points: a number, or the key of a list; empty: unknown.
     std::string_view reference = {};
     std::string_view title = {};  ///< title of its axis; empty: derived from the key
     /// Title of the axis of abscissas; empty: derived from `over`.
     std::string_view over_title = {};
-    bool log = false;               ///< logarithmic axes
+    bool log = false;               ///< whether the axes are logarithmic
     std::string_view caption = {};  ///< caption on a report page; empty: not shown there
 };
 
-/// Parts of a report page, in its order.
+/// Sections of a report page, in their order there.
 enum class PagePart { discrepancy, means, gaps, distances, spectrum, pairs, integration, tests };
 
 /// One measure of a report page: the analyzer with these options.
@@ -155,10 +155,10 @@ struct PageMeasure {
     std::string_view name = {};
 };
 
-/// Cost of comparing all pairs of points.
+/// Cost of comparing all pairs of points, which a report page limits by its --max-work.
 struct AllPairs {
-    std::size_t above = 0;  ///< in more dimensions than this, all pairs are compared
-    double steps = 0;  ///< number of terms of n^2 d that take as long as one comparison in a search
+    std::size_t above = 0;  ///< all pairs are compared in more dimensions than this; 0: never
+    double steps = 0;  ///< number of terms of n^2 d that take as long as one unit of --max-work
 };
 
 struct Analyzer {
@@ -166,7 +166,7 @@ struct Analyzer {
     std::string summary;
     std::string source;
     std::string family = {};  ///< family name such as "blue noise", set by the registry
-    /// Search words that are not names of this unit: its kind, parts or uses.
+    /// Search words that are not names of the analyzer: its kind, parts or uses.
     std::vector<std::string> related = {};
     AnalyzerTraits traits;
     Schema options;
@@ -221,7 +221,7 @@ const ResultKey* find_result(const Analyzer& analyzer, std::string_view key);
 /// @throws Error(input) if the analyzer does not accept points of this dimension
 void check_dimension(const Analyzer& analyzer, std::size_t dimension);
 
-/// Whether all reports to be averaged have the same number under a key, up to rounding.
+/// Whether all reports to be averaged have the same value under a key, up to rounding.
 bool alike(std::span<const Report> sets, std::string_view key);
 
 /// Removes entries that cannot be averaged from a report, such as positions and pairs.

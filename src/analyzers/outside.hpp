@@ -41,7 +41,7 @@ struct Outside {
     }
 };
 
-/// Reports how many of `total` points are outside, and the first of these. @throws Error(input)
+/// Reports how many of `total` points are outside, and the first such point. @throws Error(input)
 [[noreturn]] void refuse(const Outside& outside, std::uint64_t total, const Domain& domain,
                          std::string hint);
 

@@ -141,7 +141,7 @@ double effective_nyquist(const Grid& power, const Rings& rings, const RunContext
     }
     // Starts at the outermost ring. The mean power up to any shell of a ring is at least the power
     // inside the ring divided by the number of cells including the ring. This bound excludes most
-    // rings without their shells.
+    // rings before their shells are computed.
     const std::size_t last = rings.power.size();
     for (std::size_t ring = last; ring > 0; --ring) {
         if (!Shell{within[ring - 1].power, within[ring].cells}.is_low()) continue;
@@ -169,8 +169,7 @@ double effective_nyquist(const Grid& power, const Rings& rings, const RunContext
 
 namespace {
 
-/// Mean over the frequencies of rings first..last, where weighted(cells, power) is the sum over one
-/// ring.
+/// Mean over the frequencies of rings first..last; weighted(cells, power) is the sum over one ring.
 template <class Weighted>
 double mean_of(const Rings& rings, std::size_t first, std::size_t last, const Weighted& weighted) {
     double sum = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Dispersion of n points in the unit cube: the volume of the largest axis-parallel box that has no
+// Dispersion of n points in the unit cube: the volume of the largest axis-parallel box without a
 // point inside,
 //
 //     value = max { vol (a,b) : no x_i in (a,b) },      (a,b) open, in [0,1]^d.
@@ -9,9 +9,9 @@
 // then above its upper end, or equal to it if the side goes all the way round.
 //
 // Shape   points n x d in [0, 1];  result in [1/(n+1), 1].
-// Cost    d = 1: O(n log n). d = 2: O((n + s) log n), where s rectangles cannot grow; s is about
-//         n log n for random points and n^2 at worst; 10^5 random points take 0.4 s on one core,
-//         on the torus 0.5 s; --time-limit cuts it short.
+// Cost    d = 1: O(n log n). d = 2: O((n + s) log n), where s is the number of maximal empty
+//         rectangles, about n log n for random points and n^2 at worst; 10^5 random points take 0.4
+//         s on one core, on the torus 0.5 s; --time-limit cuts it short.
 //         d > 2: branch and bound over the boxes' sides, which stops at --max-work or --time-limit
 //         with valid bounds; it grows as fast as n^(2(d - 1)) at worst. 4000 random points in
 //         3-D take 0.4 s, 200 in 5-D 0.6 s.
@@ -39,7 +39,7 @@ using namespace discrepancy;
 constexpr Param<bool> torus{
     .name = "torus", .help = "Join opposite faces of the cube, so that boxes may wrap around"};
 
-/// Limit beyond any machine's memory; keys of points stay below 2^31.
+/// Limit beyond any machine's memory; it keeps sort keys of points below 2^31.
 constexpr std::size_t max_count = std::size_t{1} << 29;
 
 /// Largest empty box. If the search is cut short, the upper bound is that of the discrepancy over

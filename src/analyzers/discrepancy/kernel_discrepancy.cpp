@@ -83,7 +83,7 @@ constexpr Param<Choice> smoothness{.name = "smoothness",
                                    .choices = "0.5|1.5|2.5",
                                    .help = "Smoothness parameter nu of the kernel matern"};
 
-/// Limit beyond practical run times; sums over its pairs fit 128 bits.
+/// Limit beyond practical run times; sums over the pairs of so many points fit 128 bits.
 constexpr std::size_t max_count = std::size_t{1} << 26;
 
 /// Points to analyze, and the bandwidth of the kernel.
@@ -160,8 +160,7 @@ PointSet on_cube(const PointSet& points) {
     return cube;
 }
 
-/// Sets h to the user's --bandwidth; without this option to `fallback`, whose rule is called
-/// `rule`.
+/// Sets h to --bandwidth or, without this option, to `fallback`, whose rule is called `rule`.
 void set_bandwidth(Setting& setting, const Values& options, double fallback, const char* rule) {
     const bool given = options.given(bandwidth);
     setting.h = given ? options[bandwidth] : fallback;

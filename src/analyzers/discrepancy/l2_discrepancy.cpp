@@ -23,7 +23,7 @@
 // With product weights w_j >= 0, given or j^-decay, K is the product of 1 + w_j k for every kind:
 // squared is the sum, over all sets of axes, of the product of their weights times the square for k
 // on these axes alone. (So star with weights is modified with weights, and periodic is wraparound;
-// weights of 1 change nothing for those of 1 + k. Without weights symmetric is 2^d times average.)
+// weights of 1 change nothing for kinds of 1 + k. Without weights symmetric is 2^d times average.)
 //
 // Shape   points n x d in [0, 1];  results >= 0, pure numbers, smaller is more even.
 // Cost    d <= 2: O(n log n) for all kinds together (about 0.4 s at n = 10^6 on one core).

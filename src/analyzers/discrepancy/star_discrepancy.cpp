@@ -20,17 +20,17 @@
 // Cost    d = 1: O(n log n). d = 2: O(n^(4/3)) time in practice and O(n) memory, 65 bytes a point
 //         with the points; 2^16 points take 0.04 s, 10^6 1 s and 10^7 20 s on one core.
 //         d > 2: exponential in d at worst (the problem is NP-hard); branch and bound, which ends
-//         after --max-work or --time-limit. Both are for all rows of a table together.
+//         after --max-work or --time-limit. Both limit all rows of a table together.
 //         Other kinds, d = 2: branch and bound over O(n^2) cells at worst, of a few points each.
 //         1024 points take 0.1 s (random) to 0.4 s (Hammersley), 4096 points 0.5 s to 9 s; the
 //         periodic kind of even points takes ten times as long. d > 2: up to n^(2(d - 1)) cells;
 //         1000 random points in 3-D take 10 s, 128 in 5-D 5 s. A first bound of many points in few
 //         dimensions is 2^d D* (periodic: (3^d - 1) D*).
-// Promise `exact` reports whether the value is: counts are integers, boxes are compared without
-//         rounding, and the value is the double nearest to that of the worst box. Otherwise the
-//         worst box found gives `lower`, and no box is worse than `upper`. Never depends on the
-//         number of threads; depends on the machine if --time-limit ends it.
-// Beware  if `exact` is false, `value` is `lower`; a --check of it must hold for both bounds.
+// Promise `exact` reports whether the value is exact: counts are integers, boxes are compared
+//         without rounding, and the value is the double nearest to that of the worst box. Otherwise
+//         the worst box found gives `lower`, and no box is worse than `upper`. Never depends on the
+//         number of threads; depends on the machine if --time-limit ends the search.
+// Beware  if `exact` is false, `value` is `lower`; a --check of `value` must hold for both bounds.
 //         Coordinates are the exact values of the doubles: 0.1 is a little more than 1/10.
 // Source  C. Doerr, M. Gnewuch, M. Wahlstroem, "Calculation of discrepancy measures and
 //         applications", arXiv:1405.1653 (survey); M. Gnewuch, A. Srivastav, C. Winzen, J.
@@ -102,8 +102,8 @@ constexpr Param<std::int64_t> projections{
         "in the order 1-2, 1-3, 2-3, 1-4, 2-4, ...: sorted by the last axis, then by the preceding "
         "one"};
 
-/// Maximum number of points. Memory runs out earlier; the limit keeps counts of points within
-/// 32-bit integers.
+/// Maximum number of points. Memory runs out for fewer points; the limit keeps counts of points
+/// within 32-bit integers.
 constexpr std::size_t max_count = std::size_t{1} << 29;
 
 /// A set to measure, with its limits.
@@ -198,8 +198,8 @@ class Table {
     Columns columns;
 
   private:
-    /// Limits of the next set, if `together` sets are measured at a time; and whether it is the
-    /// first set.
+    /// Limits of the next set, if `together` sets are measured at a time, and whether it is the
+    /// first.
     std::pair<Limits, bool> next_limits(double weight, double together) {
         const std::lock_guard lock(counting_);
         const bool first = left_ == weight_;
@@ -224,7 +224,7 @@ class Table {
     std::size_t rows_;
     const Limits& limits_;
     double weight_;
-    double left_;  ///< weight of the sets that have not begun
+    double left_;  ///< total weight of the sets not yet begun
     const MeasureSet& measure_;
     const RunContext& run_;
     std::size_t done_ = 0;
@@ -250,7 +250,7 @@ std::vector<std::size_t> given_sizes(const Values& options) {
     return sizes;
 }
 
-/// @throws Error(input) if the set has fewer points
+/// @throws Error(input) if the set has fewer points than a requested prefix
 std::vector<std::size_t> prefix_sizes(std::size_t count, const Values& options) {
     if (options.given(every)) {
         const auto step = static_cast<std::size_t>(options[every]);
@@ -280,7 +280,7 @@ PointSet projection(const PointSet& points, const Combination& along) {
 }
 
 /// Largest difference between the discrepancies of m points and of n of these points: in every box,
-/// the fractions of points differ by at most (m - n) / m. Adds a margin for rounding.
+/// the fractions of points differ by at most (m - n) / m. Includes a margin for rounding.
 double step_between(std::size_t n, std::size_t m) {
     return static_cast<double>(m - n) / static_cast<double>(m) + 0x1p-50;
 }
@@ -299,8 +299,8 @@ void carry_bounds(const std::vector<std::size_t>& sizes, Columns& columns) {
     for (std::size_t row = sizes.size(); row-- > 1;) carry(row, row - 1);
 }
 
-/// Prefixes that take much of the total work use all threads, one after another; the others are
-/// distributed over the threads.
+/// Prefixes that take a large fraction of the total work use all threads, one prefix after another;
+/// the other prefixes are distributed over the threads.
 Report of_prefixes(const PointSet& points, const std::vector<std::size_t>& sizes,
                    const Limits& limits, const MeasureSet& measure, const RunContext& run) {
     double total = 0;
@@ -327,8 +327,7 @@ Report of_prefixes(const PointSet& points, const std::vector<std::size_t>& sizes
     return result;
 }
 
-/// Adds bounds of the table's largest value, and the value itself if the worst row is certain and
-/// exact.
+/// Adds bounds of the table's largest value, and this value if the worst row is certain and exact.
 void add_largest(Report& table) {
     const auto& lower = table.curve("lower");
     const auto& upper = table.curve("upper");
@@ -480,7 +479,7 @@ void need_room(const PointSet& points, Family family, const RunContext& run) {
 /// Finds the worst box in two dimensions. Returns only bounds if the sweep exceeds its share of the
 /// time limit.
 Found sweep_or_search(const BoxGrid& grid, const Limits& limits, const RunContext& run) {
-    constexpr double part = 0.7;  // the rest is for bounds
+    constexpr double part = 0.7;  // of the time; the rest is for bounds
     SearchLimits first = limits.search;
     first.deadline = limits.start + part * (first.deadline - limits.start);
     const SearchResult sweep = star::sweep_2d(grid, first, run);
@@ -630,7 +629,7 @@ Analyzer unit() {
                       "periodic-discrepancy"}},
             .analyze = analyze,
             .cost =
-                [](double n, double d) {  // exact searches of Halton's, Sobol's and random points
+                [](double n, double d) {  // fitted to searches of Halton, Sobol', random
                     if (d <= 2) return 3e-8 * std::pow(n, 1.33);
                     return std::min(100.0, 5e-8 * std::pow(n, d <= 8 ? 1 + d / 4 : 2.2 + d / 10));
                 },

@@ -6,8 +6,8 @@
 //     radius = max over x of  min_i |x - x_i|.
 //
 // On the torus (the default) in 2-D it is the largest circumradius of a Delaunay triangle. With
-// straight distances the walls end the domain. The centre may then also be one of the domain's
-// corners, or a place where the boundaries of Voronoi cells meet the walls (empty_ball.hpp).
+// straight distances the centre may also be a corner of the domain, or a point where the boundary
+// of a Voronoi cell meets a side of the domain (empty_ball.hpp).
 //
 //     mesh_ratio = radius / (minimum / 2),
 //
@@ -17,13 +17,13 @@
 //
 // Shape   points n x d, d <= 32.
 // Cost    d <= 2: O(n log n) for sets that are not too uneven; 10^6 points in 2-D take 2.3 s on one
-//         core. d >= 3: branch and bound; grows with the number of places that are nearly as empty
-//         as the emptiest, and exponentially with d.
-// Promise d <= 2: exact up to rounding. d >= 3: the radius is that of an empty ball, and none is
-//         larger than `upper`, at most radius (1 + tolerance). Never depends on the number of
-//         threads.
+//         core. d >= 3: branch and bound; grows with the number of empty balls that are nearly as
+//         large as the largest, and exponentially with d.
+// Promise d <= 2: exact up to rounding. d >= 3: the radius is that of an empty ball, and no empty
+//         ball is larger than `upper`, at most radius (1 + tolerance). Never depends on the number
+//         of threads.
 // Source  H. Niederreiter, "Random Number Generation and Quasi-Monte Carlo Methods", SIAM 1992,
-//         chapter 6 (there, with the maximum norm too: dispersion).
+//         chapter 6 (called dispersion there, also with the maximum norm).
 
 #include <cmath>
 

@@ -12,19 +12,19 @@
 //
 //     radial density     mean over the pixels with centres in the ring k - 1/2 <= |x| / w < k + 1/2
 //     anisotropy         variance of the pixels over the ring / squared mean, in dB; independent
-//                        points have -10 log10(differences per pixel), and less in a mean of sets
+//                        points have -10 log10(differences per pixel), less if sets are averaged
 //
 // where w is the side of a pixel; k = 0 is the central pixel.
 //
 // Shape   n >= 2 points of the unit square or a rectangle. Image of B x B pixels, B odd, reaching
 //         from -r to r, x to the right and y upward: row = y.
 // Units   distances in sqrt(V / n), the mean distance.
-// Cost    O(n + pairs within the square's corners): 10^6 points to 5 mean distances, 5e7 pairs,
-//         take 2 s on one core.
+// Cost    O(n + pairs nearer than the square's corners): 10^6 points within 5 mean distances, 5e7
+//         pairs, take 2 s on one core.
 // Promise every pair counts twice, once on either side of 0: the image is its own mirror image
 //         exactly. Never depends on the number of threads.
-// Beware  a difference on the edge of pixels counts in one of them, so the peaks of a lattice are
-//         single pixels.
+// Beware  a difference on the edge of pixels counts in one, so the peaks of a lattice are single
+//         pixels.
 // Source  L.-Y. Wei, R. Wang, ACM Trans. Graph. 30:4 (2011) 50, doi:10.1145/2010324.1964945.
 
 #include <algorithm>
@@ -102,8 +102,8 @@ Plan plan_for(const PointSet& points, const Values& options) {
 /// Counts of differences in the pixels, row by row.
 using Counts = std::vector<std::uint64_t>;
 
-/// Largest number of blocks. Each block has its own counts; those of all blocks take at most 1 GiB,
-/// or 4 images.
+/// Largest number of blocks. Each block has its own counts; these take at most 1 GiB or, if that is
+/// more, 4 images.
 std::uint64_t most_blocks(std::size_t pixels) {
     constexpr std::uint64_t most_counts = std::uint64_t{1} << 27;
     return std::clamp<std::uint64_t>(most_counts / (pixels * pixels), 4, 64);
@@ -120,8 +120,8 @@ class DifferenceCounter {
                                static_cast<double>(points.count()) + 64),
                   points.flat(), run) {}
 
-    /// Uses few blocks, since each needs its own counts. Their order does not matter, since counts
-    /// are integers.
+    /// Uses few blocks, since each needs its own counts. The order of blocks does not matter:
+    /// counts are integers.
     [[nodiscard]] Counts count() const {
         const std::uint64_t n = points_.count();
         const std::uint64_t size = std::max<std::uint64_t>(1024, n / most_blocks(plan_.pixels) + 1);
@@ -168,7 +168,7 @@ class DifferenceCounter {
     SortedPoints<2> points_;
 };
 
-/// Probability that the difference along an axis is in each of its pixels.
+/// For each pixel along an axis, the probability that the difference of two points is in it.
 std::vector<double> chances(const Plan& plan, std::size_t axis) {
     const double side = plan.distances.box->extent(axis);
     const double width = plan.side();

@@ -21,7 +21,7 @@ Outside outside_of(const PointSet& points) {
     return outside;
 }
 
-/// Bounds of a domain that is a box or the unit cube; nullopt for others.
+/// Bounds of a domain that is a box or the unit cube; nullopt for other domains.
 std::optional<Box> box_of(const Domain& domain) {
     const std::string spec = domain.spec();
     if (spec != "unit-cube" && !spec.starts_with("box:")) return std::nullopt;

@@ -35,7 +35,7 @@ std::vector<double> sorted(const PointSet& points, double low, const RunContext&
     return x;
 }
 
-/// For d = 1: half of the widest gap between neighbours, or a whole gap at a wall if this is wider.
+/// For d = 1: half of the widest gap of two points, or the whole gap at a wall if that is wider.
 EmptyBall widest_gap(const PointSet& points, const Distances& distances, const RunContext& run) {
     const double low = distances.box->low[0];
     const double high = distances.box->high[0];
@@ -85,7 +85,7 @@ class Search {
         const auto d = static_cast<double>(points.dimension());
         const double ball = real_power(std::numbers::pi, d / 2) / exponential(log_gamma(d / 2 + 1));
         // At this radius n balls have the volume of the box, so the covering radius is not smaller.
-        // Parts with a larger half diagonal are halved without a bound.
+        // Parts with a larger half diagonal are halved without computing a bound.
         least_ = real_power(volume_of(box_) / ball / static_cast<double>(points.count()), 1 / d);
     }
 
@@ -122,14 +122,14 @@ class Search {
         return part;
     }
 
-    /// A part is not divided further if its upper bound is at most this.
+    /// A part is not divided further if its upper bound is at most this radius.
     [[nodiscard]] double good_enough() const {
         const bool more = best_.radius > search_.enough;
         return more ? best_.radius * (1 + search_.tolerance) : search_.enough;
     }
 
     /// Adds the points near the part's centre to `bound`, each as its nearest copy. Returns the
-    /// unit of length.
+    /// bound's unit of length.
     double look_around(const Part& part, Bound& bound) const {
         const auto neighbors = tree_.nearest_several(part.center, neighbors_);
         const double unit =
@@ -175,7 +175,7 @@ class Search {
         offer(part, std::move(place));
     }
 
-    /// Merges the results of a round, and halves the parts that need it.
+    /// Merges the results of a round, and halves the parts whose bounds are too large.
     void finish(std::vector<Part>& round) {
         judged_ += round.size();
         for (Part& part : round) {
@@ -253,8 +253,7 @@ namespace {
 
 double squared_length(const Vec2& v) { return v.x * v.x + v.y * v.y; }
 
-/// Recomputes a corner from the neighbours beyond its two edges, with higher accuracy than the
-/// cell's cuts.
+/// Recomputes a corner from the neighbours beyond its two edges, more accurately than the cuts.
 Vec2 refined(const CellCorner& before, const CellCorner& corner, double squared_reach) {
     const Vec2& a = before.neighbor;
     const Vec2& b = corner.neighbor;
@@ -273,7 +272,7 @@ Vec2 refined(const CellCorner& before, const CellCorner& corner, double squared_
     return squared_length(change) < 1e-12 * squared_reach ? found : corner.at;
 }
 
-/// A cell whose farthest corner was at least as far as all known ones when the cell was cut.
+/// A cell whose farthest corner was at least as far as all corners known when the cell was cut.
 struct Record {
     double squared_reach;
     std::size_t site;
@@ -311,7 +310,7 @@ std::vector<Record> best_cells(const PlanarCells& cells, std::size_t count, cons
     return records;
 }
 
-/// Distance of a place to the nearest point, given the approximate distance `about`.
+/// Distance of a position to the nearest point, given the approximate distance `about`.
 double clearance(const SortedPoints<2>& points, const std::vector<double>& place, double about) {
     double least = std::numeric_limits<double>::infinity();
     points.visit(place.data(), about * (1 + 1e-6),

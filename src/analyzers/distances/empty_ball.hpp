@@ -4,16 +4,17 @@
 //
 //     radius = max over x in the box of  min_i |x - x_i|.
 //
-// d = 1   half of the widest gap between points, or a whole gap at a wall. d = 2   the maximum is
-// at a corner of a point's Voronoi cell (math/neighbors/planar_sites.hpp). A cell is abandoned as
-// soon as all its corners are nearer to the point than the best corner so far is to its own. d >= 3
-// branch and bound over boxes. The points near a box give an upper bound of the radius of balls
-// centred in it, and a centre whose ball attains the bound up to the square of the box's size
-//         (math/neighbors/covering_bound.hpp). A box is done if its bound is at most
+// d = 1   half of the widest gap between points, or the whole gap at a wall.
+// d = 2   the maximum is at a corner of a point's Voronoi cell (math/neighbors/planar_sites.hpp). A
+//         cell is abandoned once its corners are nearer to its point than the best corner to its
+//         own.
+// d >= 3  branch and bound over boxes. The points near a box give an upper bound of the radius of
+//         balls centred in it, and a centre whose ball attains this bound up to the square of the
+//         box's size (math/neighbors/covering_bound.hpp). A box is done if its bound is at most
 //         (1 + tolerance) times the largest distance found so far; others are halved.
 //
 // Cost    d = 2: O(n log n) for even sets; 10^6 points take 2.5 s on one core. d >= 3: grows with
-//         the number of places that are nearly as empty as the emptiest, and exponentially with d.
+//         the number of empty balls nearly as large as the largest, and exponentially with d.
 //         Verifying that a Poisson-disk set is maximal takes 0.06 ms per point in 3-D, 0.5 ms in
 //         4-D, 2 ms in 5-D, 4 ms in 6-D.
 // Promise the radius is the distance, in float64, of the centre to its nearest point. For d <= 2 it
@@ -39,7 +40,7 @@ struct EmptyBall {
 /// Limits of the branch and bound for d >= 3.
 struct BallSearch {
     double tolerance = 1e-6;
-    double enough = 0;  ///< if no ball is larger than this, the search proves only that
+    double enough = 0;  ///< radius R: if no ball is larger, the search proves only this
     std::uint64_t max_boxes = 100'000'000;
 };
 

@@ -13,11 +13,11 @@
 //
 //     independent points    variance = mean (1 - v / V)       exponent d
 //     jittered grids        variance ~ R^(d-1)                exponent d - 1
-//     lattices              variance ~ R^(d-1), with waves    exponent about d - 1
+//     lattices              variance ~ R^(d-1), oscillating   exponent about d - 1
 //
-// Sets between d - 1 and d are hyperuniform, too. Since n is fixed, the variance of every set
-// contains the factor 1 - v / V of independent points. `dispersion` = variance / (mean (1 - v / V))
-// and the fit leave it out, so independent points have dispersion 1 at every radius.
+// Sets with exponents between d - 1 and d are hyperuniform, too. Since n is fixed, the variance of
+// every set contains the factor 1 - v / V of independent points. `dispersion` = variance / (mean (1
+// - v / V)) and the fit leave it out, so independent points have dispersion 1 at every radius.
 //
 // With straight distances, balls may extend beyond the box, where there are no points. So --windows
 // random centres are drawn, the same in every run, such that the largest ball is inside the box.
@@ -29,19 +29,19 @@
 //         otherwise; R up to a quarter of the shortest side, so that no two balls overlap twice.
 // Units   radii in (V / n)^(1/d), the mean distance.
 // Cost    O(n + pairs nearer than 2 R): 10^6 points of the plane to 10 mean distances, 6.3e8 pairs,
-//         take 5 s on one core. By windows O(n + windows * points in the largest).
-// Promise on the torus the variance is within the reported error, up to rounding. The error is
-//         negligible for lattices, for other sets some 1e-11 of the largest window's <N>^2. Pairs
-//         are summed in narrow bins, with the mean m and the variance s^2 of their distances. The
-//         third derivative of the overlap is nonnegative. So the sum over distances in [a, b] with
-//         these moments is between two extremes: some pairs at a and the others at m + s^2 / (m -
-//         a), or some at b and the others at m - s^2 / (b - m). Never depends on the number of
+//         take 5 s on one core. By windows O(n + windows * points in the largest window).
+// Promise on the torus the variance is off by at most the reported error, up to rounding. The error
+//         is negligible for lattices, for other sets some 1e-11 of the largest window's <N>^2.
+//         Pairs are summed in narrow bins, with the mean m and the variance s^2 of their distances.
+//         The third derivative of the overlap is nonnegative. So the sum over distances in [a, b]
+//         with these moments is between two extremes: some pairs at a and the others at m + s^2 /
+//         (m - a), or some at b and the others at m - s^2 / (b - m). Never depends on the number of
 //         threads.
 // Beware  neighbouring radii share most of their pairs. So the standard error of the exponent,
 //         which assumes independent residuals, is too small: by a factor of 15 for 4096 independent
 //         points of the plane, whose exponent has a standard deviation of 0.09. --average gives the
-//         true standard error, over sets. A lattice's waves need many radii. The variance over M
-//         windows has a relative error of sqrt(2 / M) or more, as they overlap.
+//         true standard error, over sets. A lattice's oscillations need many radii. The variance
+//         over M windows has a relative error of sqrt(2 / M) or more, as they overlap.
 // Source  S. Torquato, F. H. Stillinger, Phys. Rev. E 68 (2003) 041113,
 //         doi:10.1103/PhysRevE.68.041113 (variance by pairs, hyperuniformity).
 //         S. Karlin, W. J. Studden, "Tchebycheff Systems", Wiley 1966 (the two extreme sums are
@@ -101,8 +101,8 @@ constexpr Param<std::int64_t> window_count{
     .help =
         "Number of random windows with --metric euclidean; on the torus all positions are counted"};
 
-/// Number of bins within twice the smallest radius, and limits for the number within twice the
-/// largest, which take precedence.
+/// Number of bins within twice the smallest radius, and limits for the number of bins within twice
+/// the largest radius, which take precedence.
 constexpr double bins_in_smallest = 400;
 constexpr double fewest_bins = 4096;
 constexpr double most_bins = 16384;
@@ -169,7 +169,7 @@ Plan plan_for(const PointSet& points, const Box& box, const Values& options) {
     return plan;
 }
 
-/// A distance that represents some of a bin's pairs, and the number of these.
+/// Distance that represents a group of a bin's pairs, and the number of pairs in the group.
 struct Stand {
     double at;
     double pairs;
@@ -182,8 +182,7 @@ struct BinPairs {
     std::array<Stand, 2> most;
 };
 
-/// Two distances, one of them at an end of the bin, with the same mean and variance as the bin's
-/// pairs.
+/// Two distances, one of them at an end of the bin, with the mean and variance of the bin's pairs.
 std::array<Stand, 2> with_end(double pairs, double mean, double variance, double end) {
     const double off = mean - end;
     const double share = variance / (variance + off * off);
@@ -200,7 +199,7 @@ std::vector<BinPairs> bins_of(const PairCounts& counts, double width) {
         const double spread = counts.squared_offsets[b] / pairs - offset * offset;
         const double mean = low + (offset + 0.5) * width;
         bins[b].least = bins[b].most = {{{mean, pairs}, {mean, 0}}};
-        // Zero variance up to rounding.
+        // The variance is 0, or all pairs are at an end of the bin, up to rounding.
         if (spread < 1e-14 || !(std::abs(offset) < 0.5 - 1e-7)) continue;
         bins[b].least = with_end(pairs, mean, spread * width * width, low);
         bins[b].most = with_end(pairs, mean, spread * width * width, low + width);
@@ -296,7 +295,8 @@ Curves by_pairs(const PointSet& points, const Plan& plan, const Distances& dista
     return curves;
 }
 
-/// Sums over windows, for each radius. They are integers, so that their order does not matter.
+/// Sums over windows, for each radius. The sums are integers, so that the order of windows does not
+/// matter.
 struct WindowSums {
     std::vector<std::uint64_t> counts;
     std::vector<std::uint64_t> squares;
@@ -407,8 +407,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
                    "points differ");
 }
 
-/// Recomputes the exponent from the mean variance, which scatters less than the mean of the
-/// exponents.
+/// Recomputes the exponent from the mean variance, which scatters less than the exponents' mean.
 void refine(Report& mean, std::size_t, const Values&) {
     if (!mean.find("radius")) refuse_mean();
     add_exponent(mean);

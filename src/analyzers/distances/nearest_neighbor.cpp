@@ -22,8 +22,8 @@
 // Shape   n >= 2 points of any dimension. A duplicate has distance 0.
 // Cost    O(n log n) for few dimensions; on one core 10^6 even points take 0.3 s in 2-D, 0.6 s in
 //         3-D; clustered points in 2-D, which a grid does not fit, 1 s.
-// Promise exact: distances are the roots of sums of squares in float64, as comparing all pairs
-//         would find them. The pair is the one of lowest indices with the smallest distance.
+// Promise exact: distances are the roots of sums of squares in float64, the same as by comparing
+//         all pairs. The pair is the one of lowest indices with the smallest distance.
 //         Never depends on the number of threads.
 // Beware  straight distances have no wrap: near the faces neighbours are missing.
 // Source  J. H. Conway, N. J. A. Sloane, "Sphere Packings, Lattices and Groups", 3rd ed., 1999,

@@ -9,7 +9,7 @@
 // for faces and edges exactly, at any distance (pair_counts.hpp). The weight is one of
 //
 //     histogram      w = 1 for distances in the bin around t, else 0
-//     epanechnikov   w = 1 - ((s - t) / h)^2 for |s - t| < h, at the edges of the bins; computed
+//     epanechnikov   w = 1 - ((s - t) / h)^2 for |s - t| < h, with t at the edges of bins; computed
 //                    from each bin's sums of distances and their squares, without rounding them
 //                    to bins
 //
@@ -80,7 +80,7 @@ constexpr Param<bool> normalize{
     .name = "normalize-distance",
     .help = "Give distances, and --max-distance, in units of (V / n)^(1/d)"};
 
-/// Resolved request: `bins` of `width`, and the `unit` of reported distances.
+/// Resolved request: `bins` bins of this `width`, and the `unit` of reported distances.
 struct Plan {
     Distances distances;
     std::size_t bins;
@@ -125,7 +125,7 @@ Plan plan_for(const PointSet& points, const Values& options) {
     return plan;
 }
 
-/// Probability that two independent points are nearer than a number of bins, at the edges of the
+/// Probability that two independent points are nearer than x bin widths, for x at the edges of the
 /// bins and at the nodes of Gauss's rule in them.
 class Chances {
   public:

@@ -19,7 +19,7 @@ namespace {
 /// Number of candidates whose distances are computed at a time.
 constexpr std::size_t batch_size = 256;
 
-/// A place, and the points whose distances from it are computed, stored axis by axis.
+/// A position, and the points whose distances from it are computed, with coordinates axis by axis.
 template <std::size_t D>
 struct FromPlace {
     std::array<const double*, D> columns;  ///< coordinates of the points
@@ -27,7 +27,7 @@ struct FromPlace {
     std::array<double, D> sides;  ///< periods; infinite for straight distances
 };
 
-/// places[i] = distance of point i times `scale`, at most `last`; bins[i] is its integer part.
+/// places[i] is the distance of point i times `scale`, at most `last`; bins[i] its integer part.
 template <std::size_t D>
 STIPPLE_WIDE void find_places(const FromPlace<D>& from, std::size_t count, double scale,
                               double last, double* places, std::int32_t* bins) {

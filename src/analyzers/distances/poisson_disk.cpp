@@ -11,8 +11,8 @@
 // density, a map of radii or a mask are rejected without --radius.
 //
 // The largest empty ball decides whether the set is maximal (empty_ball.hpp). The last gaps that a
-// generator should fill may be lost in rounding, so a largest empty ball whose radius exceeds R by
-// less than --tolerance is accepted. The centre of a disk in such a gap can move only by about the
+// generator should fill may be lost in rounding, so a largest empty ball with a radius of at most R
+// (1 + tolerance) is accepted. The centre of a disk in such a gap can move only by about the
 // tolerance times R.
 //
 // Shape   points n x d, d <= 32.
@@ -101,7 +101,7 @@ double radius_of(const PointSet& points, const Values& options, double squared) 
     return root * root <= squared ? root : std::nextafter(root, 0.0);
 }
 
-/// Pairs closer than R: their number, and the first of them.
+/// Number of pairs closer than R, and the indices of the first pair.
 struct Conflicts {
     std::uint64_t count = 0;
     Report::Integers first = {};
@@ -117,7 +117,7 @@ Conflicts find_conflicts(const PointSet& points, const Distances& distances,
     std::vector<std::uint64_t> parts(block_count(points.count(), size));
     for_each_block(run.stage(0.2, 1), points.count(), size, [&](const Block& b) {
         for (std::uint64_t i = b.first; i < b.last; ++i)
-            // Without the point itself.
+            // The tree counts the point itself, too.
             parts[b.index] += tree.count_nearer(points[i], squared) - 1;
     });
     Conflicts found{.count = std::accumulate(parts.begin(), parts.end(), std::uint64_t{0}) / 2};

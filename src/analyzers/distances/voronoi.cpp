@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Voronoi cells of n points in the plane: how equal and how round they are, and how their
-// neighbours are arranged. Points at the same place count once; there are m places in the area V.
+// neighbours are arranged. Coincident points count once: m distinct points in the area V.
 //
 //     area           a_i of each cell, in V / m, and their coefficient of variation; its square is
 //                    the capacity error of Balzer et al., mean (a_i m / V - 1)^2
@@ -24,7 +24,7 @@
 //     square lattice                    0          0      0       1 / 12
 //     independent points, m -> inf      0.529      0.361  0       1 / (2 pi)
 //
-// Shape   n >= 2 points of the unit square or a rectangle, at two places at least.
+// Shape   n >= 2 points of the unit square or a rectangle, at least two of them distinct.
 // Cost    O(n log n) if points are spread roughly evenly: 10^6 random points take 3.4 s on one
 //         core, 90 bytes each. Clustered points use a search tree, three times as slow.
 // Promise never depends on the number of threads, nor on the order of the points.
@@ -147,7 +147,7 @@ Sums sum_up(const PlanarSites& sites, double unit, double shortest, const RunCon
     std::vector<Sums> parts(block_count(sites.count(), size));
     for_each_block(run, sites.count(), size, [&](const Block& b) {
         VoronoiCell cell;
-        Sums sums;  // local, since other threads write near shared memory
+        Sums sums;  // local, since writes to shared memory nearby would slow each other down
         for (std::uint64_t i = b.first; i < b.last; ++i) {
             if (i % 64 == 0) run.check_stop();
             cells.cut(static_cast<std::size_t>(i), cell);

@@ -27,9 +27,9 @@
 // its measure. Variances are those of single samples, f / p and measure x f, over the set. Their
 // ratio is the factor by which more independent uniform points would be needed.
 //
-// If the density is 0 on a part of the domain, no point samples f there: the estimate is of the
-// integral over the rest, the support. So is `exact`: it is computed by quadrature to exact_error
-// if the support consists of a few known boxes of one or two dimensions, and otherwise left out.
+// If the density is 0 on a part of the domain, no point samples f there: the estimate is that of
+// the integral over the density's support. So is `exact`, by quadrature to exact_error if the
+// support consists of a few known boxes of one or two dimensions, and otherwise left out.
 //
 // If the density is constant, on any domain, both estimates use the same points. If the domain has
 // no coordinates in which p is uniform (mixtures, formulas, supports with gaps), or the density is
@@ -43,7 +43,7 @@
 // Cost    O(n d) for each integrand; about 10 to 50 ns per point in 2-D on one core.
 // Promise sums are compensated for rounding; results are the same for any number of threads.
 // Beware  if p approaches 0 and f does not, f / p may have no finite variance (`measure` on the
-//         cosine hemisphere): its standard error then describes the points, but bounds nothing.
+//         cosine hemisphere): its standard error then does not bound the error.
 // Source  A. B. Owen, "Monte Carlo theory, methods and examples" (2013), chapters 9 (importance
 //         sampling) and 17 (error estimates by replication).
 
@@ -106,8 +106,8 @@ struct Task {
     std::string name;
     Region region;
     std::function<double(std::span<const double>)> value;
-    std::optional<Estimate> exact;  ///< over the support of the density; empty if unknown
-    bool mean = false;              ///< the mean of f is estimated, not its integral
+    std::optional<Estimate> exact;  ///< exact value over the density's support; empty: unknown
+    bool mean = false;              ///< whether the mean of f is estimated, not its integral
 };
 
 const char* words(Region region) {
@@ -115,7 +115,7 @@ const char* words(Region region) {
     return region == Region::hemisphere ? "a hemisphere" : "a domain of finite measure";
 }
 
-/// @throws Error(input) if the integrand does not accept such points
+/// @throws Error(input) if the integrand does not accept points of this domain
 void require_fit(const IntegrandKind& kind, const Domain& domain, const RegionView& view) {
     const std::size_t d = domain.dimension();
     if (!view.has(kind.region))
@@ -264,7 +264,7 @@ struct Fault {
     std::size_t task = 0;
     double value = 0;
     double density = 0;
-    bool uniform = false;  ///< the value is at the uniform point made from `point`
+    bool uniform = false;  ///< whether the value is at the uniform point made from `point`
 
     void add(const Fault& other) {
         if (other.point < point) *this = other;
@@ -273,8 +273,8 @@ struct Fault {
 
 /// Sums over one block, or over all blocks.
 struct Sums {
-    std::vector<Tally> weighted;  ///< f / p, for each task
-    std::vector<Tally> uniform;   ///< measure x f at uniform points, or measure x f^2 / p
+    std::vector<Tally> weighted;  ///< f / p, for each integrand
+    std::vector<Tally> uniform;   ///< for each: measure x f at uniform points, or measure x f^2 / p
     Outside outside;
     Fault fault;
 
@@ -439,7 +439,7 @@ Tally measure_of(const PointSet& points) {
     return inverse;
 }
 
-/// Whether the densities of the points are those of the domain.
+/// Whether the densities given with the points are those of their domain.
 bool follows_domain(const PointSet& points) {
     for (std::size_t i = 0; i < points.densities.size(); ++i)
         if (std::abs(points.domain->density(points[i]) / points.densities[i] - 1) > 1e-12)

@@ -58,8 +58,8 @@ constexpr Param<std::int64_t> projections{
     .unit = "coordinates",
     .help = "Also compute t of all projections to at most this many coordinates"};
 
-/// Least number of digits for which boxes cut along all of these coordinates become unequal; `most`
-/// if no smaller number does. Boxes that are equal remain equal with fewer digits.
+/// Least number of digits for which boxes cut along all of these coordinates hold unequal numbers
+/// of points; `most` if there is no smaller one. Equal numbers remain equal with fewer digits.
 std::size_t least_unequal(Probe& probe, const Combination& along, std::size_t most) {
     std::size_t equal = along.size() - 1;
     while (equal + 1 < most) {
@@ -69,7 +69,7 @@ std::size_t least_unequal(Probe& probe, const Combination& along, std::size_t mo
     return most;
 }
 
-/// R of all projections of one size, ordered by combination_number().
+/// R of all projections to the same number of coordinates, ordered by combination_number().
 using Unequal = std::vector<std::size_t>;
 
 /// Projections, all of the same size, whose t is that of the whole set.
@@ -99,7 +99,8 @@ class Search {
         return found;
     }
 
-    /// Worst projections, given R of all projections up to some size; searches the larger ones.
+    /// Worst projections, given R of all projections up to some size; searches the larger
+    /// projections.
     [[nodiscard]] Worst worst(const std::vector<Unequal>& known, const RunContext& run) const {
         const Worst small = worst_of(known);
         const auto levels = levels_above(known.size() - 1, small.unequal);
@@ -186,8 +187,7 @@ class Search {
 
     using Body = std::function<void(const Combination& along, std::size_t way, Probe& probe)>;
 
-    /// Calls body for all choices of `size` coordinates and each of the `ways` to cut, on all
-    /// threads.
+    /// Calls body for all choices of `size` coordinates and each of `ways` to cut, on all threads.
     void for_each(std::size_t size, std::size_t ways, const RunContext& run,
                   const Body& body) const {
         const std::uint64_t count = binomial(net_.dimension, size) * ways;

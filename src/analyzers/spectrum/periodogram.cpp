@@ -11,8 +11,8 @@
 //     P(f) = | sum_j s_j w(x_j) exp(-2 pi i f.x_j) - W(f) sum_j s_j |^2
 //            / ((3/8)^d - W(f)^2) / sum_j s_j^2;
 //
-// the density's own transform is subtracted, and the mean is 1 again, at every f. From the power,
-// always without f = 0:
+// the expectation of the sum for uniform points is subtracted, and the mean is 1 again, at every f.
+// From the power, always without f = 0:
 //
 //     radial power       P_k = mean of P over the ring k - 1/2 <= |f| < k + 1/2,  k = 1..F
 //     anisotropy         variance of P over the ring (mean squared deviation) / P_k^2, in dB;
@@ -31,13 +31,13 @@
 //                        (but at least up to 4), with rings weighted by their numbers of vectors.
 //                        Rings without power above the tolerance are left out
 //
-// Shape   points in [0, 1]^d or a box, d = 1, 2, 3, also in pieces; strengths 0 or from 1e-100 to
+// Shape   points in [0, 1]^d or a box, d = 1, 2, 3, also in batches; strengths 0 or from 1e-100 to
 //         1e100 in size; the 2-D power has row = f_1, column = f_0, -F..F.
 // Units   cycles per unit length (for a box: per side). Published tables give the effective Nyquist
 //         frequency divided by `regular_nyquist`, n^(1/d) / 2, which is that of a regular grid.
 // Cost    O(n w^d + (4F)^d log F), see math/fourier/nufft.hpp; `direct` O(n (2F)^d). Sets of up to
 //         2^20 points are kept until their number is known; of larger ones only a batch.
-// Promise the same for any number of threads, and whether points arrive at once or in pieces. The
+// Promise the same for any number of threads, and whether points arrive at once or in batches. The
 //         same in every run, except for last bits with --wisdom, where FFTW measures its plans.
 // Beware  one set's power has a standard deviation of 100 % at every frequency: average sets. A
 //         mean of anisotropies is not the anisotropy of the mean power; so the report contains the
@@ -150,7 +150,7 @@ constexpr Param<std::int64_t> slice{
 
 constexpr double floor_of_floats = 1e-13;
 constexpr std::uint64_t buffered_points = std::uint64_t{1} << 20;
-// Assumed number of points of larger sets.
+// Number of points assumed for larger sets of unknown size.
 constexpr std::uint64_t most_points = std::uint64_t{1} << 30;
 
 /// The sums sum_j s_j and sum_j s_j^2.
@@ -209,7 +209,7 @@ class StrengthSums {
 };
 
 /// Transform of the window on one axis, at the frequency f. Without a window it is 1 at 0; for hann
-/// 1/2 at 0 and -1/4 at 1 and -1; otherwise 0.
+/// 1/2 at 0 and -1/4 at 1 and -1; at all other frequencies 0.
 double window_transform(std::int64_t f, bool hann) {
     if (!hann) return f == 0 ? 1 : 0;
     return f == 0 ? 0.5 : std::abs(f) == 1 ? -0.25 : 0;
@@ -306,7 +306,7 @@ STIPPLE_WIDE bool all_inside(std::span<const double> coordinates) {
     return outside == 0;
 }
 
-/// Power spectrum of points that arrive in pieces.
+/// Power spectrum of points that arrive in batches.
 class Summation final : public SharedAccumulator {
   public:
     Summation(const Arrival& arrival, const Values& options, const RunContext& run)
@@ -409,8 +409,8 @@ class Summation final : public SharedAccumulator {
                                              : default_frequency(count, d_);
     }
 
-    /// Points of the unit cube, each followed by its strength times its window if these are not all
-    /// 1. Empty if `rows` can be used unchanged.
+    /// Points of the unit cube, each followed by its strength times its window unless all of these
+    /// products are 1. Empty if `rows` can be used unchanged.
     std::vector<double> changed_points(std::span<const double> rows) {
         std::vector<double> points;
         const std::size_t given = d_ + (weighted_ ? 1 : 0);
@@ -551,7 +551,7 @@ class Summation final : public SharedAccumulator {
     std::uint64_t at_ = 0;  ///< index of the first point to arrive
     std::size_t frequency_ = 0;
     std::uint64_t n_ = 0;
-    std::uint64_t announced_ = 0;  ///< number of points; 0 if unknown
+    std::uint64_t announced_ = 0;  ///< announced number of points; 0 if unknown
     std::uint64_t planned_ = 0;    ///< number of points for which the transform was chosen
     std::vector<double> buffer_;
     std::vector<double> first_;  ///< first point of the set
@@ -563,7 +563,7 @@ class Summation final : public SharedAccumulator {
     std::unique_ptr<DirectSummation> direct_;
 };
 
-/// Points per block of the sums, each with its own grid; small sets are not shared.
+/// Number of points per block of the sums, each with its own grid; small sets are not shared.
 std::uint64_t grain(const Arrival& arrival, const Values& options) {
     if (options[method] == "direct")
         fail(ErrorKind::usage, "periodogram: ranks can share --method nufft only; use one process");

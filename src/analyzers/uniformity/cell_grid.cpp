@@ -36,7 +36,7 @@ struct Stretch {
     double high;
 };
 
-/// Intervals of cell `place` of the `m` cells of an axis; the first cell of a shifted axis has two.
+/// Intervals that form cell `place` of an axis with m cells: two for the first cell if shifted.
 std::vector<Stretch> stretches(std::size_t place, std::size_t m, bool shifted) {
     const auto cells = static_cast<double>(m);
     const auto first = static_cast<double>(place);

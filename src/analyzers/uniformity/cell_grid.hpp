@@ -16,7 +16,7 @@ namespace stipple::analyzers {
 
 using CellGrid = std::vector<std::size_t>;  ///< number of cells along each axis
 
-/// Smallest expected number of points in a group of cells.
+/// Smallest expected number of points in a group of cells for the chi-square test.
 inline constexpr std::uint64_t fewest_expected = 5;
 inline constexpr std::uint64_t most_cells = 100'000'000;
 

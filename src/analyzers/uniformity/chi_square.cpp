@@ -32,7 +32,7 @@
 // The tails of R sets are combined in one of three ways. sum: the sum of their statistics has the
 // sum of their degrees of freedom. sidak: 1 - (1 - p)^R of the smallest p. fisher: -2 sum ln p is
 // chi-square with 2 R degrees of freedom. The upper and the lower tails are combined separately.
-// The sum's lower tail is at least the product of those of the sets.
+// The sum's lower tail is at least the product of the sets' lower tails.
 //
 // Probabilities that are known only within errors leave the statistic in a range (pearson.hpp). If
 // the ends of the range have different verdicts, the analyzer fails.
@@ -42,11 +42,11 @@
 // root-mean-square e, sqrt(sum_i p_i e_i^2), for which the verdict is non-uniform with probability
 // 0.9.
 //
-// Shape   points n x d on any domain, also in pieces; a report of numbers and the verdict.
+// Shape   points n x d on any domain, also in batches; a report of numbers and the verdict.
 // Cost    O(n d) time, O(K) memory besides the points; for a stream of unknown length, the first
 //         2^20 points are kept. About 25 ns per point in 2-D on one core.
 // Promise counts, and so all results, are the same for any number of threads, and whether points
-//         arrive at once or in pieces. A coordinate of exactly 1 belongs to the last cell.
+//         arrive at once or in batches. A coordinate of exactly 1 belongs to the last cell.
 // Beware  low-discrepancy points are stratified, not random: their p describes them, but is not a
 //         probability. The p of random points is approximate if expectations are small, and for few
 //         groups, whose statistic takes few values. If the density jumps to 0 at the edge of a
@@ -107,7 +107,7 @@ class Gaps {
                                std::max(std::abs(around.low[k]), std::abs(around.high[k])));
     }
 
-    /// Number of rows that are in gaps.
+    /// Number of rows that are points in gaps.
     [[nodiscard]] std::uint64_t count(std::span<const double> rows, const RunContext& run) const {
         if (support_.whole) return 0;
         const std::size_t d = domain_->dimension();
@@ -165,7 +165,7 @@ class Tally {
         if (with_shifted) shifted_.resize(total);
     }
 
-    /// Counts points of the cube with `width` numbers each, of which the grid uses the first ones.
+    /// Counts points of the cube, rows of `width` numbers, of which the grid uses the first.
     void add(std::span<const double> cubes, std::size_t width) {
         for (std::size_t i = 0; i < cubes.size(); i += width)
             ++counts_[cell_of(cubes.subspan(i, width), grid_, false)];
@@ -222,8 +222,8 @@ Report& add_tails(Report& report, const Tails& tails) {
         .add("p_method", tails.exact ? "exact" : "corrected");
 }
 
-/// Adds the tails on one grid or two, and the verdict. @throws Error(limit) if the errors of the
-/// cells' probabilities could change the verdict
+/// Adds the tails for one grid or two grids, and the verdict. @throws Error(limit) if the errors of
+/// the cells' probabilities could change the verdict
 void conclude(Report& report, const Judged& plain, const std::optional<Judged>& second,
               const Values& options) {
     const auto of_second = [&](Tails Judged::*which) {

@@ -67,8 +67,8 @@ inline std::string verdict_of(const Tails& plain, const Tails* second, double le
     return clumped(plain) || (second && clumped(*second)) ? "non-uniform" : "stratified";
 }
 
-/// Adds the verdict with its p-value. If it is not the wanted one, marks the report as failed; an
-/// empty `wanted` accepts any verdict.
+/// Adds the verdict with its p-value. If it is not `wanted`, marks the report as failed; an empty
+/// `wanted` accepts any verdict.
 inline void add_verdict(Report& report, const std::string& verdict, double p,
                         const std::string& wanted) {
     report.add("verdict", verdict);

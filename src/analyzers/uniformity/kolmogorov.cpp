@@ -20,7 +20,7 @@ using std::numbers::pi;
 /// A square matrix times 2^exponent.
 struct Scaled {
     std::size_t size = 0;
-    std::vector<double> at;  ///< row by row
+    std::vector<double> at;  ///< elements, row by row
     double exponent = 0;
 };
 

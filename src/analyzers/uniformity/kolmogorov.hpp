@@ -17,7 +17,7 @@
 // Promise exact values have a relative error below 1e-9 in the lower tail, however small it is, and
 //         in the upper tail if it is below 1e-3; otherwise the upper tail's absolute error is below
 //         1e-9. The expansion is used only for n > 10^4, where its error is less than 1e-9.
-//         One-sided above 10^6: relative error below 2e-4 down to 1e-13.
+//         One-sided above 10^6: relative error below 2e-4 for tails down to 1e-13.
 // Source  G. Marsaglia, W. W. Tsang, J. Wang, Journal of Statistical Software 8(18) (2003),
 //         doi:10.18637/jss.v008.i18 (matrix). Z. W. Birnbaum, F. H. Tingey, Annals of Mathematical
 //         Statistics 22 (1951) 592-596, doi:10.1214/aoms/1177729550 (one-sided). W. Pelz,

@@ -21,15 +21,15 @@
 // about 2^-25 d + 1/n times the points of the fullest cell.
 //
 // Outcomes of a discrete distribution are spread at random over their cells in the cube, in the
-// same way in every run and with any axes after them, which makes them uniform.
+// same way in every run and whatever axes follow, which makes them uniform.
 //
 // Shape   points n x d on any domain whose coordinates preserve probability (all except a few) or
-//         are outcomes, also in pieces.
+//         are outcomes, also in batches.
 // Cost    O(n) time, about 45 ns per point for each axis; at most 1.5 GiB for any number of points;
 //         half a second for each axis at most for the distribution.
 // Promise if statistic_error is 0, D is exact up to the rounding of i/n; on the unit interval it
 //         is the star discrepancy. p is exact up to 10^4 points (relative error below 1e-9), and
-//         within 1e-9 above. The same for any number of threads, and for any pieces.
+//         within 1e-9 above. The same for any number of threads, and for any batches.
 // Beware  single axes do not show how coordinates depend on each other.
 // Source  A. N. Kolmogorov, Giornale dell'Istituto Italiano degli Attuari 4 (1933) 83-91.
 
@@ -60,7 +60,7 @@ constexpr Param<std::int64_t> exact_points{
         "Largest number of points per set that are kept and sorted; larger sets are counted in "
         "cells [default: 2^26 / d]"};
 
-/// Largest number of coordinates to keep, and of cells of all axes together.
+/// Largest number of coordinates that are kept, and of cells on all axes together.
 constexpr std::uint64_t most_numbers = std::uint64_t{1} << 26;
 
 /// Lower bound of D, and the largest amount by which D may exceed it.

@@ -43,8 +43,8 @@ struct SampleAndErrors {
 
 class MomentSums {
   public:
-    /// Makes sums of powers of x - about, one number per column; `first` is the number of the first
-    /// batch.
+    /// Makes sums of powers of x - about, with one value of `about` per column; `first` is the
+    /// index of the first batch.
     explicit MomentSums(std::vector<double> about, std::uint64_t first = 0);
 
     /// Takes the next batch.
@@ -60,7 +60,7 @@ class MomentSums {
   private:
     /// Sums over 2^level batches: powers 1..6 of each column, then products of pairs of columns.
     struct Node {
-        std::uint64_t first = 0;  ///< a multiple of 2^level
+        std::uint64_t first = 0;  ///< index of the first batch, a multiple of 2^level
         std::uint64_t level = 0;
         std::vector<double> sums = {};
         std::vector<double> carries = {};  ///< compensation of each sum for rounding
@@ -81,9 +81,9 @@ class MomentSums {
     void cross(const Node& all, std::size_t i, std::size_t j, SampleAndErrors& out) const;
 
     std::vector<double> about_;
-    std::uint64_t next_ = 0;  ///< number of the next batch
+    std::uint64_t next_ = 0;  ///< index of the next batch
     std::uint64_t count_ = 0;
-    std::vector<Node> nodes_;  ///< ordered by their batches
+    std::vector<Node> nodes_;  ///< in the order of their batches
 };
 
 }  // namespace stipple::analyzers

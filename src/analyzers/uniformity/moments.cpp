@@ -10,7 +10,7 @@
 //     covariance = 1/(n - 1) sum (x - mx)(y - my),  error sqrt((m22 - covariance^2) / n)
 //
 // with m_p the central moments of the sample, g_p = m_p / m2^(p/2). The errors hold for independent
-// points (that of the skewness for many of them); more even points have smaller ones.
+// points (that of the skewness only for many of them); more even points have smaller errors.
 //
 // The same numbers are reported for the points on the domain's cube, where points that follow the
 // domain's density are uniform: mean 1/2, variance 1/12, skewness 0, covariances 0, for any domain.
@@ -20,10 +20,10 @@
 //     mean sqrt(1 / (12 n)),    variance sqrt((1/80 - (n - 3)/(n - 1)/144) / n),
 //     skewness sqrt(72 / (35 n)),    covariance 1 / (12 sqrt(n - 1))
 //
-// Shape   points n x d, n >= 2, on any domain, also in pieces. Matrices row by row.
+// Shape   points n x d, n >= 2, on any domain, also in batches. Matrices row by row.
 // Cost    O(n d^2) time, O(d^2) memory besides the points; about 25 ns per point in 2-D on one
 //         core.
-// Promise the same for any number of threads, and whether points arrive at once or in pieces.
+// Promise the same for any number of threads, and whether points arrive at once or in batches.
 // Source  M. G. Kendall, A. Stuart, "The Advanced Theory of Statistics", volume 1, chapter 10
 //         (standard errors by the delta method).
 
@@ -43,7 +43,7 @@
 namespace stipple::analyzers::moments {
 namespace {
 
-/// Means of the columns; later sums are taken about them.
+/// Means of the columns, about which later sums are taken.
 std::vector<double> means_of(std::span<const double> rows, std::size_t d) {
     std::vector<double> means(d);
     const double n = static_cast<double>(rows.size()) / static_cast<double>(d);
@@ -66,7 +66,7 @@ SampleMoments exact_of(const Moments& moments) {
     return exact;
 }
 
-/// The moments that are finite, and the names of the others.
+/// The moments that are finite, and the names of those that are not.
 Report finite_of(const SampleMoments& exact) {
     Report report;
     std::vector<std::string> missing;

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t most_unequal = 8;
 
 /// Number of equal cells in a group, so that its expectation is at least 5. @throws Error(input) if
-/// that leaves fewer than two groups
+/// there are then fewer than two groups
 std::uint64_t group_size(std::uint64_t n, std::uint64_t total) {
     const std::uint64_t size = (fewest_expected * total + n - 1) / n;
     if (size > total / 2) {
@@ -48,7 +48,7 @@ class ModalProbabilities {
   public:
     explicit ModalProbabilities(std::uint64_t n) : whole_(static_cast<double>(n)), rest_(whole_) {}
 
-    /// Adds a group. Not called for the last one, whose count follows from the others.
+    /// Adds a group. Not called for the last group, whose count follows from the other counts.
     void add(double expected) {
         if (!found_.empty() && found_.back() < 1e-30) return;
         rest_ -= expected;
@@ -65,7 +65,7 @@ class ModalProbabilities {
     std::vector<double> found_;
 };
 
-/// Cells with a probability above 0, the least probable first. Counts the points in other cells as
+/// Cells with a probability above 0, the least probable first. Points in other cells are
 /// impossible.
 std::vector<std::uint64_t> possible_cells(std::span<const std::uint64_t> counts,
                                           std::span<const Estimate> masses, Fit& found) {
@@ -276,7 +276,7 @@ Tails fisher(std::span<const Tails> tests) {
 //
 // Unequal groups: counts are enumerated group by group, as long as the statistic can stay small
 // enough. Each count is binomial among the remaining points. If groups with expectations E and F
-// contain T points together, they add at least
+// contain T points together, O of them in the first, they add
 //
 //     (O - E)^2 / E + (T - O - F)^2 / F  =  (O - c)^2 (1 / E + 1 / F) + (T - E - F)^2 / (E + F),
 //
@@ -308,8 +308,8 @@ class EqualCounts {
             weights_[k] = weights_[k + 1] * ((count - static_cast<double>(zero - k - 1)) / count);
     }
 
-    /// Sum of the weights of all counts of `groups` groups whose e add up to `rest`, which is less
-    /// than `groups`.
+    /// Sum of the weights of all counts of `groups` groups whose e add up to `rest`, below
+    /// `groups`.
     double sum(std::int64_t groups, std::int64_t rest) {
         if (rest > squares_) return 0;  // the sum of squares of integers is at least their sum
         reach_ = root(groups * squares_) + 1;
@@ -355,7 +355,7 @@ class EqualCounts {
     std::vector<double> weights_;
 };
 
-/// Probability that `count` of n points are where `expected` are expected. The powers of n, k and n
+/// Binomial probability of `count` of n points if `expected` are expected. The powers of n, k and n
 /// - k are separated from n! / (k! (n - k)!), so that nothing cancels.
 double binomial_chance(double count, double n, double expected) {
     const auto off = [](double found, double right) {
@@ -377,7 +377,7 @@ class UnequalCounts {
             behind_[k] = behind_[k + 1] + expected_[k + 1];
     }
 
-    /// Upper bound of the number of counts with at most this statistic.
+    /// Upper bound of the number of combinations of counts with at most this statistic.
     [[nodiscard]] double most(double statistic) const {
         double count = 1;
         for (std::size_t k = 0; k + 1 < expected_.size(); ++k)

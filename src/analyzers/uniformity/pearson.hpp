@@ -7,12 +7,12 @@
 // Cells of equal probability are grouped in their order, with as many in a group as needed to
 // expect 5 points; remaining cells go to the last group. Cells of unequal probability are first
 // sorted, the least probable first (equal ones by their index), and then pooled until a group
-// expects 5; remaining cells go to the last group. So all groups expect at least 5, and cells that
-// expect so many alone are not pooled.
+// expects 5; remaining cells go to the last group. So all groups expect at least 5, and at most one
+// cell that expects 5 alone is pooled.
 //
-// If expectations are known within errors d_i, so is X^2. It is the squared length of (O - E) /
-// sqrt(E), which changes by at most D = sqrt(sum d_i^2 / E_i), and the divisors E are wrong by a
-// factor of at most 1 + d_i / E_i:
+// If expectations are known within errors d_i, X^2 has an error, too. X^2 is the squared length of
+// (O - E) / sqrt(E), which changes by at most D = sqrt(sum d_i^2 / E_i), and the divisors E are
+// wrong by a factor of at most 1 + d_i / E_i:
 //
 //     (X - D)^2 / (1 + r)  <=  right statistic  <=  (X + D)^2 / (1 - r),    r = max d_i / E_i
 //
@@ -29,7 +29,7 @@
 // and at least the probability of the most even counts, if that is known. Compared with exact
 // values for equal groups, its error was below 5 % for tails down to 1e-4.
 //
-// Promise equal cells: (K (O - E))^2 is computed in integers.
+// Promise equal cells: K (O - E) is computed in integers.
 #pragma once
 
 #include <cstdint>
@@ -58,10 +58,10 @@ struct Fit {
     [[nodiscard]] double freedom() const { return static_cast<double>(groups - 1); }
 };
 
-/// Fit for cells of equal probability. @throws Error(input) if they make fewer than two groups
+/// Fit for cells of equal probability. @throws Error(input) if the cells make fewer than two groups
 Fit fit_equal(std::span<const std::uint64_t> counts, std::uint64_t n, const RunContext& run);
 
-/// Fit for cells with these probabilities, one for each count. @throws Error(input)
+/// Fit for cells with these probabilities, one per count. @throws Error(input)
 Fit fit_masses(std::span<const std::uint64_t> counts, std::span<const Estimate> masses,
                std::uint64_t n, const RunContext& run);
 
@@ -69,7 +69,7 @@ Fit fit_masses(std::span<const std::uint64_t> counts, std::span<const Estimate> 
 struct Tails {
     double upper = 1;
     double lower = 1;
-    bool exact = false;  ///< the lower tail is exact
+    bool exact = false;  ///< whether the lower tail is exact
 
     [[nodiscard]] double two_sided() const;
 };
@@ -99,7 +99,7 @@ Tails fisher(std::span<const Tails> tests);
 /// 1 - (1 - p)^tests, without loss of digits for small p.
 double sidak(double p, double tests);
 
-/// Two-sided p-value of one test; of two tests, Sidak's combination of the smaller p.
+/// Two-sided p-value of one test or, for two tests, Sidak's combination of the smaller p.
 double p_value_of(const Tails& plain, const Tails* second);
 
 }  // namespace stipple::analyzers

@@ -15,11 +15,11 @@
 // this is nearly right or too large.
 //
 // Shape   points n x d, n > lags + 1 and n >= 3, in their order, on any domain whose coordinates
-//         preserve probability; also in pieces.
+//         preserve probability; also in batches.
 // Cost    O(n d lags) time, 20 ns per point in 2-D with 5 lags on one core; O(d lags) memory
 //         besides the points.
 // Promise runs are counted in integers; the same for any number of threads, and whether points
-//         arrive at once or in pieces. Equal neighbours count as rising, and 1/2 as above.
+//         arrive at once or in batches. Equal neighbours count as rising, and 1/2 as above.
 // Beware  consecutive low-discrepancy points depend on each other; that is not a defect.
 // Source  H. Levene, J. Wolfowitz, Annals of Mathematical Statistics 15 (1944) 58-69,
 //         doi:10.1214/aoms/1177731307 (runs up and down). A. Wald, J. Wolfowitz, Annals of
