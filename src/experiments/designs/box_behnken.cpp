@@ -5,7 +5,7 @@
 // middle level. Runs at the centre follow.
 //
 //     factors     3   4   5   6   7    9   10   11   12   16
-//     block       2   2   2   3   3    3    4    5    4    4      (11: half of the 2^5, E = ABCD)
+//     block       2   2   2   3   3    3    4    5    4    4      (11: half of 2^5, E = ABCD)
 //     runs       12  24  40  48  56  120  160  176  192  384      plus those at the centre
 //
 // Shape   (runs above + --center) x k for these k.
@@ -42,8 +42,7 @@ constexpr Blocks published[] = {
      "1269 348b 5ade 7cfg 237a 145c 6bef 89dg 256d 478f 19ae 3bcg 367e 158g 2abf 49cd 13df 24eg "
      "579b 68ac 46ag 359f 17bd 28ce"}};
 
-/// Returns the blocks for a number of factors. @throws Error(usage) naming the nearest available
-/// numbers
+/// Returns the blocks for a number of factors. @throws Error(usage) naming the nearest numbers
 const Blocks& blocks_for(std::size_t factors) {
     std::size_t below = 0;
     for (const Blocks& blocks : published) {

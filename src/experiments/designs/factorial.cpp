@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Full factorial design: every combination of the factors' levels once, in standard order, the
-// first factor fastest. levels.hpp defines the coordinates of levels.
+// Full factorial design: every combination of the factors' levels once, in standard order: the
+// first factor changes fastest. levels.hpp defines the coordinates of levels.
 //
-// Shape   n = m_1 m_2 ... m_k runs, up to 2^53. Without --levels, a given count must be m^k;
-//         without a count, every factor has two levels, or all outcomes of a parameter with up to
-//         ten.
+// Shape   n = m_1 m_2 ... m_k runs, up to 2^53. Without --levels, a given count must be m^k.
+//         Without either, every factor has two levels, or all outcomes of its parameter if these
+//         are at most ten.
 // Cost    O(n k).
 // Source  D. C. Montgomery, "Design and Analysis of Experiments", Wiley, chapter 5.
 
@@ -59,7 +59,7 @@ Plan plan(const Request& request, const Values& options) {
     return plan_of_runs(request, runs, d, "--levels " + format_value(Value(given)));
 }
 
-/// Checks that every outcome of a parameter occurs equally often. @throws Error(usage)
+/// Checks that all outcomes of a parameter occur equally often. @throws Error(usage)
 void check_outcomes(const std::vector<std::uint64_t>& sizes, const LevelPlaces& places) {
     for (std::size_t k = 0; k < sizes.size(); ++k) {
         const std::uint64_t outcomes = places.outcomes(k);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
 // Design of the extended Fourier amplitude sensitivity test: for each of k factors one curve of N
-// runs j = 0, ..., N - 1 through the cube,
+// runs j = 0, ..., N - 1 through the cube. M is --harmonics;
 //
 //     x_i = 1/2 + asin(sin(2 pi (w_i j / N + phi_i))) / pi,
 //
-// straight lines that are reflected at its faces. On its own curve a factor has the frequency w =
-// floor((N - 1) / (2 M)). The other factors have frequencies from 1, ..., m = floor(w / (2 M)):
-// evenly spaced if there are enough of them, otherwise reused in turn. The phases phi_i are random,
-// drawn anew for each curve and factor.
+// which is a straight line that is reflected at the faces. On its own curve a factor has the
+// frequency w = floor((N - 1) / (2 M)). The other factors have frequencies from 1, ..., m = floor(w
+// / (2 M)): evenly spaced if there are enough of them, otherwise reused in turn. The phases phi_i
+// are random, drawn anew for each curve and factor.
 //
 // Shape   n = N k, the curve of the first factor first; N at least 4 M^2 + 1.
 // Promise x_i is within 1e-15 of the exact value.
@@ -50,7 +50,7 @@ Plan plan(const Request& request, const Values& options) {
 
 struct Frequencies {
     std::uint64_t own;                  ///< frequency of the curve's factor
-    std::vector<std::uint64_t> others;  ///< frequencies of the other factors, in their order
+    std::vector<std::uint64_t> others;  ///< frequencies of the other factors, in the factors' order
 };
 
 Frequencies frequencies(std::uint64_t runs, std::size_t factors, std::uint64_t m) {

@@ -3,10 +3,9 @@
 // Regular fractional factorial design 2^(k-p): k factors of two levels in n = 2^(k-p) runs, a
 // subset of the full factorial (regular_fraction.hpp). The factors are A, B, ..., Z, a, ..., z,
 // without I and i, because I denotes the mean. The fraction is given by --generators (D=ABC,E=-AB,
-// with the defining relation I=ABCD=-ABE=-CDE) or
-// taken from a table (fractions.txt): the one with the highest known resolution for a count, or
-// with the fewest runs for a resolution. Among several, it is the one with the least known
-// aberration.
+// with the defining relation I=ABCD=-ABE=-CDE) or taken from a table (fractions.txt): for a count,
+// the one with the highest known resolution; for a resolution, the one with the fewest runs. Among
+// equal ones it has the least known aberration.
 //
 //     III   main effects are aliased with interactions of two factors, but not with each other
 //     IV    main effects are aliased with interactions of three factors; interactions of two
@@ -18,8 +17,8 @@
 //         fastest.
 // Promise the provenance has the resolution and the number of words of each length; for p <= 6 also
 //         the words and the shortest aliases of main effects. For fractions of the table it also
-//         has whether a higher resolution or less aberration is impossible in so many runs (search:
-//         complete) or not excluded (limited). A note reports the latter.
+//         has whether a higher resolution or less aberration is impossible in this number of runs
+//         (search: complete) or not excluded (limited; a note reports this).
 // Source  G. E. P. Box, J. S. Hunter, Technometrics 3 (1961) 311-351,
 //         doi:10.1080/00401706.1961.10489951; A. Fries, W. G. Hunter, Technometrics 22 (1980)
 //         601-608, doi:10.1080/00401706.1980.10486210 (aberration).
@@ -59,10 +58,10 @@ std::string name_of(std::uint64_t factors) {
     return name;
 }
 
-/// One generator such as D=-ABC.
+/// One generator equation such as D=-ABC.
 struct Equation {
     std::size_t factor = 0;
-    std::uint64_t product = 0;  ///< set of factors, one bit each
+    std::uint64_t product = 0;  ///< factors of the product, one bit each
     bool negative = false;
 };
 
@@ -114,7 +113,7 @@ std::vector<Equation> parse_equations(std::string_view text) {
 }
 
 /// Fraction of `factors` factors that is defined by generators. @throws Error(usage) if these
-/// contradict each other or make two factors equal
+/// contradict each other or make two columns equal
 RegularFraction fraction_of(const std::vector<Equation>& given, std::size_t factors) {
     RegularFraction design = full_fraction(factors);
     design.negative.resize(factors);
@@ -200,7 +199,7 @@ std::size_t asked_resolution(const Values& options) {
     return options.given(resolution) ? static_cast<std::size_t>(options[resolution]) : 3;
 }
 
-/// Fraction with `count` runs. @throws Error(usage) if there is no such fraction
+/// Fraction with `count` runs. @throws Error(usage) if no fraction has this count
 KnownFraction for_count(std::uint64_t count, std::size_t factors, const Values& options) {
     const std::uint64_t all = std::uint64_t{1} << factors;
     if (!std::has_single_bit(count) || count > all) {
@@ -244,8 +243,7 @@ KnownFraction decide(std::optional<std::uint64_t> count, std::size_t factors,
     return *known;
 }
 
-/// Number of factors: the dimension, or the number of factors in the equations. @throws
-/// Error(usage)
+/// Number of factors: the dimension, or as many as the equations have. @throws Error(usage)
 std::size_t factors_of(const Request& request, const Values& options) {
     if (!options.given(equations)) return request.dimension.value_or(3);
     std::uint64_t named = 0;
@@ -296,7 +294,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
 }
 
 /// Smallest number of runs for which a fraction of this resolution is neither known nor excluded; 0
-/// if there is no such number below that of the known fraction.
+/// if there is none below the known fraction's number of runs.
 std::uint64_t fewer_in_doubt(std::size_t factors, const KnownFraction& known, std::size_t asked) {
     for (std::size_t basic = 1; basic < known.design.basic.size(); ++basic)
         if (const auto smaller = known_fraction(factors, basic); smaller && smaller->bound >= asked)

@@ -46,14 +46,14 @@ class GoethalsSeidel {
     [[nodiscard]] bool positive(std::uint64_t row, std::uint64_t column) const;
 
   private:
-    /// Number of the group element x + y.
+    /// Index of the group element x + y.
     [[nodiscard]] std::uint64_t sum(std::uint64_t x, std::uint64_t y) const;
     [[nodiscard]] std::uint64_t negative(std::uint64_t x) const;
 
     /// Element i inner_ + j is the pair (i, j), i modulo outer_ and j modulo inner_.
     std::uint64_t outer_ = 1;
     std::uint64_t inner_ = 1;
-    std::array<std::vector<bool>, 4> positive_;  ///< where A, B, C, D are 1
+    std::array<std::vector<bool>, 4> positive_;  ///< elements at which A, B, C and D are 1
 };
 
 namespace {
@@ -135,7 +135,7 @@ std::uint64_t lower_twin(std::uint64_t q) {
     return a >= 3 && a * (a + 2) == q && is_prime(a) && is_prime(a + 2) ? a : 0;
 }
 
-/// x - y in the field of order p^m; elements are numbered by their digits in base p.
+/// x - y in the field of order p^m; digits of elements in base p are coefficients of t^i.
 std::uint64_t difference(std::uint64_t x, std::uint64_t y, std::uint64_t p) {
     std::uint64_t out = 0;
     for (std::uint64_t unit = 1; x != 0 || y != 0; x /= p, y /= p, unit *= p)
@@ -152,7 +152,7 @@ std::vector<bool> squares_of_field(std::uint64_t q, std::uint64_t p) {
         std::uint64_t power = 1;
         std::uint64_t steps = 0;
         do {
-            const std::uint64_t carry = power / (q / p);  // t^r = carry times the polynomial
+            const std::uint64_t carry = power / (q / p);  // coefficient of t^r = -polynomial
             power = power % (q / p) * p;
             for (std::uint64_t c = 0; c < carry; ++c) power = difference(power, polynomial, p);
             ++steps;
@@ -170,8 +170,7 @@ std::vector<bool> squares_of_prime(std::uint64_t p) {
     return square;
 }
 
-/// Sequence of Stanton and Sprott, rotated so that the design of 36 runs is that of Plackett and
-/// Burman.
+/// Sequence of Stanton and Sprott, rotated to give Plackett and Burman's design of 36 runs.
 std::vector<bool> twin_sequence(std::uint64_t a) {
     const auto of_a = squares_of_prime(a);
     const auto of_b = squares_of_prime(a + 2);
@@ -191,8 +190,8 @@ bool is_of_miyamoto(std::uint64_t order) {
     return order % 16 == 4 && prime_of_power(q) != 0 && has_hadamard(q - 1);
 }
 
-/// First one of order, order / 2, order / 4, ... that has a construction other than doubling; 0 if
-/// none has.
+/// First of the numbers order, order / 2, order / 4, ... that has a construction other than
+/// doubling; 0 if no such number has one.
 std::uint64_t base_order(std::uint64_t order) {
     for (; order >= 4 && order % 4 == 0; order /= 2)
         if (prime_of_power(order - 1) != 0 || lower_twin(order - 1) != 0 ||

@@ -8,10 +8,10 @@
 //                                row is the previous one shifted by one, and the last is all -1
 //     n = p (p + 2) + 1          the same from the product of the characters of two twin primes
 //     n = 2 (q + 1), q = 1 mod 4 Paley II, from the symmetric conference matrix of order q + 1
-//     n = 4 v                    four circulant matrices of a table (Goethals, Seidel)
+//     n = 4 v                    four functions of a table (Goethals, Seidel)
 //     n = 4 q, q = 1 mod 4       Miyamoto, from the conference matrix of order q + 1 and a Hadamard
 //                                matrix of order q - 1
-//     n = 2 m                    H_m H_m / H_m -H_m (Sylvester)
+//     n = 2 m                    rows H_m H_m and H_m -H_m (Sylvester)
 //
 // The constructions are tried in this order; q may also be a power of a prime.
 //

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Levels of designed experiments as coordinates. Level l = 0, ..., m - 1 of a factor is
+// Levels of designed experiments as coordinates. Level l = 0, ..., m - 1 of a factor is at
 //
-//     (2 l + 1) / (2 m)     the middle of cell l of m equal ones, or with --ends
+//     (2 l + 1) / (2 m)     the middle of cell l of m equal cells, or with --ends at
 //     l / (m - 1)           from face to face, the highest one just below 1.
 //
 // With the middles, every warp by inversion onto m equally probable integers or categories gives
-// the levels exactly. So does the box from -m / (m - 1) to m / (m - 1), in which they are the coded
-// values -1, ..., 1 of the literature: --bounds -2..2 for two levels, -1.5..1.5 for three.
+// the levels exactly. The box from -m / (m - 1) to m / (m - 1) gives the coded values -1, ..., 1 of
+// the literature: --bounds -2..2 for two levels, -1.5..1.5 for three.
 //
 // A factor that is warped onto K outcomes (categories, or up to ten numbers) ignores the outcomes'
 // probabilities: a level at x moves to the middle of the interval of outcome floor(K x).
@@ -44,7 +44,7 @@ inline constexpr Param<std::int64_t> center_option{
 
 using Findings = std::vector<std::pair<std::string, std::string>>;
 
-/// Coordinate of a level; 1/2 if it is the only one.
+/// Coordinate of a level; 1/2 if the factor has only one level.
 double level_place(std::uint64_t level, std::uint64_t levels, bool ends);
 
 /// Coordinates of all levels.
@@ -58,7 +58,7 @@ std::string coded_range(std::uint64_t levels, bool ends);
 Plan plan_of_runs(const Request& request, std::uint64_t runs, std::size_t factors,
                   const std::string& design);
 
-/// Like plan_of_runs(), for `others` runs plus those at the centre.
+/// Like plan_of_runs(), for `others` runs and those of --center at the centre.
 Plan plan_with_center(const Request& request, const Values& options, std::uint64_t others,
                       std::size_t factors, const std::string& design);
 
@@ -71,7 +71,8 @@ class LevelPlaces {
   public:
     explicit LevelPlaces(const Plan& plan);
 
-    /// Number of outcomes that serve as levels of a factor; 0 if its levels are plain coordinates.
+    /// Number of outcomes that serve as levels of a factor; 0 if the factor's levels are plain
+    /// coordinates.
     [[nodiscard]] std::size_t outcomes(std::size_t factor) const {
         return factor < ends_.size() && !ends_[factor].empty() ? ends_[factor].size() - 1 : 0;
     }

@@ -4,13 +4,13 @@
 // the previous one in one factor. The levels of a factor are l / (p - 1), l = 0, ..., p - 1, over
 // its whole range, and the factor moves by
 //
-//     delta = p / (2 (p - 1)),       p / 2 of its p levels.
+//     delta = p / (2 (p - 1)),       that is, by p / 2 of its p levels.
 //
 // The order of the factors, the starting levels and the directions are random and equally likely.
 //
 //     --middles  levels (2 l + 1) / (2 p), the middles of equal cells; delta is 1/2 for every p
-//     --radial   r stars instead of trajectories: a point A, then for each factor A with that
-//                coordinate from another point B; both from a Sobol' sequence, B four points ahead
+//     --radial   r stars instead of trajectories: a point A, then for each factor A with this
+//                coordinate from a point B, which is four points ahead of A in the Sobol' sequence
 //
 // Shape   n = r (k + 1).
 // Cost    O(n k).
@@ -80,7 +80,7 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-/// One trajectory, generated step by step.
+/// One trajectory, generated run by run.
 class Trajectory {
   public:
     Trajectory(std::uint64_t key, std::size_t dimension, std::uint64_t p)

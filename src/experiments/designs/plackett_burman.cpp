@@ -7,7 +7,7 @@
 // last run has all factors at the low level.
 //
 // Shape   n x k, k < n; n a multiple of 4 for which hadamard.hpp has a matrix. The default count is
-//         the smallest for k factors, the default k is n - 1.
+//         the smallest for k factors; the default k is n - 1.
 // Beware  main effects are aliased in part with interactions of two other factors.
 // Source  R. L. Plackett, J. P. Burman, Biometrika 33 (1946) 305-325,
 //         doi:10.1093/biomet/33.4.305.

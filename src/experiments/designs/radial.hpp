@@ -23,8 +23,8 @@ inline constexpr const char* usual_base = "sobol:scramble=owen";
 
 struct RadialShape {
     std::size_t dimension;
-    std::size_t runs;       ///< runs for each i
-    std::size_t ahead = 0;  ///< index of B's point minus index of A's
+    std::size_t runs;       ///< number of runs for each i
+    std::size_t ahead = 0;  ///< index of B's point in the sequence minus that of A's
 };
 
 /// Writes run j of the block for one i; `row` holds A_i on entry, `b` is B_i.

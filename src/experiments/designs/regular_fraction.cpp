@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t bit(std::size_t i) { return std::uint64_t{1} << i; }
 
-/// Words, as sets of factors, that define the factors that are not basic.
+/// Words, as sets of factors: each factor that is not basic with the factors of its product.
 std::vector<std::uint64_t> generating_words(const RegularFraction& design) {
     std::vector<std::uint64_t> words;
     for (std::size_t k = 0; k < design.factors(); ++k) {
@@ -33,12 +33,12 @@ template <class Visit>
 void for_each_sum(const std::vector<std::uint64_t>& parts, const Visit& visit) {
     std::uint64_t sum = 0;
     visit(sum);
-    for (std::uint64_t i = 1; i < bit(parts.size()); ++i)  // in the order of a Gray code
+    for (std::uint64_t i = 1; i < bit(parts.size()); ++i)  // subsets in the order of a Gray code
         visit(sum ^= parts[static_cast<std::size_t>(std::countr_zero(i))]);
 }
 
-/// Word length counts A_t from the numbers B_w of row sums with w factors, by the MacWilliams
-/// identity:
+/// Word length counts A_t from the numbers B_w of sums of rows that contain w factors
+/// (MacWilliams):
 ///     sum_t A_t z^t  =  2^-r sum_w B_w (1 - z)^w (1 + z)^(k - w).
 WordLengths from_rows(const std::vector<std::uint64_t>& sums, std::size_t basic) {
     const std::size_t k = sums.size() - 1;
@@ -57,8 +57,8 @@ WordLengths from_rows(const std::vector<std::uint64_t>& sums, std::size_t basic)
     return lengths;
 }
 
-/// Line of the table: three numbers, and the columns of the factors, with (basic + 3) / 4
-/// hexadecimal digits each.
+/// Line of the table: number of basic factors, least and most factors that it covers, and the
+/// columns of factors that are not basic, each of (basic + 3) / 4 hexadecimal digits.
 struct FractionRow {
     std::size_t basic;
     std::size_t least;
@@ -90,8 +90,8 @@ const FractionRow* row_of(std::size_t factors, std::size_t basic) {
     return found == fraction_rows().end() ? nullptr : &*found;
 }
 
-/// Proven upper bound of the resolution: that of the table's fraction, unless a higher resolution
-/// may exist.
+/// Proven upper bound of the resolution: the resolution of the table's fraction, except in the
+/// cases below, in which a higher one is not excluded.
 std::size_t bound_of(std::size_t factors, std::size_t basic, std::size_t resolution) {
     struct Open {
         std::size_t basic, first, last, bound;
@@ -103,9 +103,9 @@ std::size_t bound_of(std::size_t factors, std::size_t basic, std::size_t resolut
     return resolution;
 }
 
-/// Whether the fraction is proven to have minimum aberration: by the complete catalogues of up to
-/// 32 runs, and of 64 runs at resolution IV (Chen, Sun, Wu 1993), or by the theorems on up to four
-/// generators (J. Chen, C. F. J. Wu, Ann. Stat. 19 (1991) 1028-1041).
+/// Whether the table's fraction is proven to have minimum aberration: by the complete catalogues of
+/// up to 32 runs, and of 64 runs at resolution IV (Chen, Sun, Wu 1993), or by the theorems on up to
+/// four generators (J. Chen, C. F. J. Wu, Ann. Stat. 19 (1991) 1028-1041).
 bool is_least(std::size_t factors, std::size_t basic) {
     return basic <= 5 || (basic == 6 && factors <= 32) || factors - basic <= 4;
 }

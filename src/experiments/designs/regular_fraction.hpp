@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Regular two-level fractions 2^(k-p): r = k - p basic factors take all combinations of their
-// levels. Every other factor is a product of some basic factors, its column. A set of factors whose
-// columns have the product 1 is a word of the defining relation. The resolution is the length of
-// the shortest word.
+// levels. The column of every other factor is a product of some basic factors. A set of factors
+// whose columns have the product 1 is a word of the defining relation. The resolution is the length
+// of the shortest word.
 //
 //     A_t = number of words of length t        the word length pattern
 //
@@ -54,7 +54,7 @@ std::vector<std::uint64_t> defining_words(const RegularFraction& design);
 struct KnownFraction {
     RegularFraction design;
     std::size_t resolution = 0;  ///< 0 for a full factorial
-    std::size_t bound = 0;       ///< proven upper bound of the resolution for this count
+    std::size_t bound = 0;       ///< proven upper bound of the resolution for this number of runs
     bool least = true;           ///< whether the aberration is proven to be minimal
 
     [[nodiscard]] bool has(std::size_t asked) const {
@@ -68,7 +68,7 @@ inline constexpr std::size_t most_basic_factors = 16;
 /// Best known fraction of 2^basic runs; nullopt if main effects would be aliased with each other.
 std::optional<KnownFraction> known_fraction(std::size_t factors, std::size_t basic);
 
-/// Fraction with the fewest runs that has a resolution; nullopt if it needs more than
+/// Fraction with the fewest runs that has at least this resolution; nullopt if it needs more than
 /// 2^most_basic_factors runs.
 std::optional<KnownFraction> fewest_runs(std::size_t factors, std::size_t resolution);
 

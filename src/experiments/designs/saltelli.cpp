@@ -55,7 +55,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
             row[j - 1] = b[j - 1];
             return;
         }
-        // Coordinate kept from A; k if none is kept.
+        // Coordinate that a mixed row keeps from A; k if it keeps none.
         const std::size_t kept = j + 1 < runs ? j - k - 1 : k;
         for (std::size_t i = 0; i < k; ++i)
             if (i != kept) row[i] = b[i];

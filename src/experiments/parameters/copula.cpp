@@ -15,8 +15,8 @@
 namespace stipple::parameters {
 namespace {
 
-/// The smaller of the two probabilities. Replaces 0, whose score would be infinite, by the smallest
-/// random number.
+/// The smaller of the probabilities below and above; 0, whose score would be infinite, is replaced
+/// by the smallest random number.
 double tail(const Share& share) {
     const double m = std::min(share.below, share.above);
     return m > 0 ? std::max(m, 1e-300) : 0x1p-54;
@@ -136,7 +136,7 @@ std::vector<double> lifted(const std::vector<double>& matrix, std::size_t d, dou
 
 std::vector<double> nearest_correlation(std::vector<double> matrix, std::size_t d) {
     constexpr double least = 1e-6;
-    // Dykstra's correction for the projection onto the cone of such matrices.
+    // Dykstra's correction for the projection onto matrices with eigenvalues of at least `least`.
     std::vector<double> correction(d * d);
     for (int step = 0; step < 500; ++step) {
         std::vector<double> shifted(d * d);

@@ -48,7 +48,7 @@ class Copula {
     /// Whether forward() does not change coordinate i.
     [[nodiscard]] bool leaves(std::size_t i) const;
 
-    /// Whether coordinate i depends on others.
+    /// Whether coordinate i depends on other coordinates.
     [[nodiscard]] bool joins(std::size_t i) const;
 
     /// Density with respect to the uniform distribution on the cube.

@@ -47,8 +47,7 @@ double score_of(double below, double above) {
     return detail::normal_quantile(below < above ? below - 0.5 : 0.5 - above, m);
 }
 
-/// Reduces increments to at most four with the same moments up to order seven; appends them to
-/// `out`.
+/// Reduces increments to at most four with the same moments up to order seven, added to `out`.
 void gather(std::span<const Increment> many, std::vector<Increment>& out) {
     constexpr std::size_t nodes = 4;
     if (many.size() <= nodes) {
@@ -116,8 +115,7 @@ double slope(const std::vector<Increment>& a, const std::vector<Increment>& b, d
     return sum / (2 * std::numbers::pi);
 }
 
-/// Legendre series of S on an interval of angles: its integral, and the angle at which this reaches
-/// a value.
+/// Legendre series of S on an interval of angles: with its integral and the inverse of that.
 class Part {
   public:
     template <class Slope>
@@ -300,7 +298,7 @@ void Scored::add_panel(double low, double high, double x_low, double x_high) {
         increments_.push_back({(low + high) / 2, gained});
         return;
     }
-    // Weights of Gauss's rule, in the order in which it evaluates nodes.
+    // Weights of Gauss's rule, in the order in which by_gauss() evaluates the nodes.
     using Rule = boost::math::quadrature::gauss<double, 10>;
     for (std::size_t i = 0; i < nodes.size(); ++i)
         nodes[i].size *=
@@ -381,7 +379,7 @@ double Scored::scores_for(const Scored& other, double r) const {
         rate = part.end_slope();
         low = high;
     }
-    // Extrapolates the covariance from the last angle to pi / 2 by a power of the remaining angle,
+    // Extrapolates the covariance from the last angle to pi / 2 by a power of the remaining angle
     // with the same slope.
     const double width = std::numbers::pi / 2 - low;
     const double power = std::max(1.0, rate * width / (end - reached));

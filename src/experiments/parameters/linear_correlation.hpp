@@ -28,17 +28,18 @@
 
 namespace stipple::parameters {
 
-/// A parameter's numbers, or their mean ranks, as a function of the normal score.
+/// A parameter's values, or their mean ranks, as a function of the normal score.
 class Scored {
   public:
-    /// Correlated quantity: the numbers, or their mean ranks (F(x) + F(x-)) / 2.
+    /// Correlated quantity: the values x, or their mean ranks (F(x) + F(x-)) / 2.
     enum class Of { numbers, ranks };
 
-    /// @throws Error(usage) if the variance is 0 or infinite, or comes from too far in the tails
+    /// @throws Error(usage) if the variance is 0, infinite, or largely from probabilities below
+    /// 1e-300
     Scored(MarginalPtr law, Of of);
 
     /// Correlation of the scores for which this parameter and the other one have the correlation r.
-    /// @throws Error(usage) naming the possible range, if r is not possible
+    /// @throws Error(usage) naming the possible range if r is outside
     [[nodiscard]] double scores_for(const Scored& other, double r) const;
 
     /// Correlation of both parameters if that of their scores is `sign`, 1 or -1.
@@ -58,16 +59,16 @@ class Scored {
 
     /// number(z) minus the mean.
     [[nodiscard]] double at(double z) const;
-    /// Number, or mean rank, at the score z.
+    /// Value, or mean rank, at the score z.
     [[nodiscard]] double number(double z) const;
     /// Increments reduced for kernels that are at least `width` wide.
     [[nodiscard]] std::vector<Increment> gathered(double width) const;
 
     MarginalPtr law_;
     bool ranks_;
-    bool stepped_ = false;               ///< the increments are exactly the distribution's steps
+    bool stepped_ = false;  ///< whether the increments are exactly the distribution's steps
     std::vector<Increment> increments_;  ///< ascending by score
-    std::vector<double> levels_;         ///< numbers or ranks between consecutive steps
+    std::vector<double> levels_;         ///< values or ranks between consecutive steps
     std::vector<double> cuts_;           ///< limits of intervals on which number() is smooth
     double mean_ = 0;
     double deviation_ = 1;

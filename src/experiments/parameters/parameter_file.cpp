@@ -84,7 +84,7 @@ class Place {
     const std::string& source_;
 };
 
-/// A number, or a formula in the preceding parameters.
+/// A number, or a formula that may use the preceding parameters.
 struct Entry {
     double number = 0;
     std::optional<Expression> formula = {};
@@ -100,7 +100,7 @@ Entry entry_of(const Place& place, const FormulaNames& before) {
         [&] { return Entry{.formula = Expression("", place.value().get<std::string>(), before)}; });
 }
 
-/// Limits the numbers, since all of them are stored in the points' provenance.
+/// Limits the length of lists, since all of them are stored in the points' provenance.
 void check_size(const Place& values, std::size_t count) {
     constexpr std::size_t most = 100'000;
     if (count > most)
@@ -144,7 +144,7 @@ class ParameterReader {
         if (before_.find(name)) at.refuse(fmt::format("{} is given twice", shown(name)));
         check_word(at, name);
         std::string header = name;
-        std::ranges::replace(header, ',', '.');  // 1,5 may be a number as well
+        std::ranges::replace(header, ',', '.');  // since 1,5 may be read as 1.5
         if (!io::is_word(header)) refuse_word(at, name);
         if (name == "set" || name == "pdf" || name == "weight")
             at.refuse(fmt::format("the column name {} is reserved", name));
@@ -320,8 +320,8 @@ class ParameterReader {
         });
     }
 
-    /// Probabilities of the levels from the file, or equal ones by default. Whole numbers are
-    /// ratios, such as 2:1:1.
+    /// Probabilities of the levels from the file; by default equal. Whole numbers are ratios, as in
+    /// 2:1:1.
     std::vector<double> probabilities(std::size_t count) const {
         std::vector<double> p(count, 1);
         bool ratios = true;
@@ -456,7 +456,7 @@ class CorrelationReader {
         const std::size_t d = parameters_.size();
         if (given_[i * d + j]) pair.refuse("the pair is given twice");
         given_[i * d + j] = given_[j * d + i] = true;
-        spearman_[i * d + j] = spearman_[j * d + i] = r;  // used only by a reordering
+        spearman_[i * d + j] = spearman_[j * d + i] = r;  // used only for a reordering
         const double scores = of_scores(pair, i, j, r, kind, student);
         matrix_[i * d + j] = matrix_[j * d + i] = scores;
     }
@@ -473,8 +473,7 @@ class CorrelationReader {
                 "ties",
                 student ? "" : "give \"spearman\"");
         if (kind == "kendall") return std::copysign(cos_sin_turns(std::abs(r) / 4).sin, r);
-        // For a parameter that depends on others, r is the correlation of its conditional
-        // probability.
+        // r is the correlation of the conditional probability if a parameter depends on others.
         if (kind == "spearman" && (!a || !b || !discrete)) return score_correlation(r);
         if (!a || !b)
             pair.refuse("the correlation of a parameter that depends on others cannot be computed");
@@ -515,7 +514,7 @@ class CorrelationReader {
     std::vector<double> matrix_;  ///< correlations of the scores
     std::vector<double> spearman_;
     std::vector<bool> given_;
-    bool ranks_only_ = true;  ///< rank correlations of scores are those of the parameters
+    bool ranks_only_ = true;  ///< whether the scores have the parameters' rank correlations
     std::vector<std::shared_ptr<const Scored>> numbers_;  ///< per parameter; null until needed
     std::vector<std::shared_ptr<const Scored>> ranks_;
 };
@@ -559,7 +558,7 @@ std::string one_line(std::string_view json, const std::string& source) {
 
 namespace {
 
-/// Numbers in the column of a file that the parameter refers to.
+/// Numbers in the column of a file to which the parameter refers.
 Json column_of(const Place& parameter, const RunContext& run) {
     const Place file = parameter.at("file");
     const std::string path = file.text("expected the name of a file");

@@ -16,7 +16,8 @@ namespace stipple::parameters {
 /// @throws Error(input) "SOURCE: $.parameters[2].range: error; what is expected"
 ParameterSpace parse_parameters(std::string_view json, const std::string& source);
 
-/// Text of a parameter file, in which the numbers of columns replace references to other files.
+/// Text of a parameter file, in which references to columns of other files are replaced by their
+/// numbers.
 /// @throws Error(input), Error(io)
 std::string text_with_columns(const std::string& path, const RunContext& run);
 

@@ -10,7 +10,7 @@
 namespace stipple::parameters {
 namespace {
 
-/// Quantile. Replaces an infinite one by the quantile at the smallest random number.
+/// Quantile; an infinite one is replaced by the quantile at the smallest random number.
 double place(const Marginal& law, const Share& share) {
     const Tail tail = share.below <= share.above ? Tail::lower : Tail::upper;
     const double x = law.quantile(std::min(share.below, share.above), tail);
@@ -18,7 +18,7 @@ double place(const Marginal& law, const Share& share) {
 }
 
 /// Probabilities below and above x; if the distribution is discrete, below and above the middle of
-/// x's interval.
+/// the interval of x.
 Share share_of(const Marginal& law, double x) {
     const Share at{law.probability(x, Tail::lower), law.probability(x, Tail::upper)};
     if (!law.discrete()) return at;
@@ -62,8 +62,8 @@ std::optional<std::vector<HalfSpace>> half_spaces(const Expression& constraint) 
 }
 
 /// Makes a polytope from the linear constraints and removes them from the list; nullopt if there
-/// are no such constraints, or if the polytope is too large. @throws Error(usage) if no parameters
-/// satisfy them
+/// are no linear constraints, or if the polytope is too large. @throws Error(usage) if no
+/// parameters satisfy these constraints
 std::optional<LinearPart> take_linear_part(const std::vector<UniformRange>& ranges,
                                            std::vector<Expression>& constraints) {
     const std::size_t d = ranges.size();

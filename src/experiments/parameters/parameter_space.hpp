@@ -21,9 +21,9 @@ namespace stipple::parameters {
 struct Parameter {
     std::string name;
     std::string unit;
-    std::vector<std::string> levels;  ///< names of the numbers 0, 1, ...; empty if numeric
+    std::vector<std::string> levels;  ///< names of the values 0, 1, ...; empty if numeric
     MarginalPtr law;                  ///< distribution; null if it depends on preceding parameters
-    bool uniform = false;             ///< the distribution is uniform
+    bool uniform = false;             ///< whether the distribution is uniform
     /// Returns the distribution, given the preceding parameters.
     std::function<MarginalPtr(std::span<const double> before)> law_given = {};
 };
@@ -77,7 +77,7 @@ class ParameterSpace {
                    std::optional<Reordering> reordering = std::nullopt);
 
     [[nodiscard]] const std::vector<Parameter>& parameters() const { return parameters_; }
-    /// Parameters joined by linear constraints; null if there are no such constraints.
+    /// Parameters joined by linear constraints; null if there are no linear constraints.
     [[nodiscard]] const LinearPart* linear() const { return linear_ ? &*linear_ : nullptr; }
     /// Whether from_cube() maps onto the polytope, because rejection would keep too few points.
     [[nodiscard]] bool maps_linear() const { return linear_ && linear_->share() < 0.1; }
@@ -86,26 +86,25 @@ class ParameterSpace {
     /// Whether density() is normalized: all constraints are linear, and sets are not reordered.
     [[nodiscard]] bool density_known() const { return others_.empty() && !reordering_; }
     [[nodiscard]] bool has_copula() const { return copula_.has_value(); }
-    /// Reordering to be applied to a whole set before from_cube(), instead of a copula; nullopt if
-    /// there is none.
+    /// Reordering to apply to a whole set before from_cube(), instead of a copula; nullopt if none.
     [[nodiscard]] const std::optional<Reordering>& reordering() const { return reordering_; }
     [[nodiscard]] std::vector<std::string> names() const;
     [[nodiscard]] Levels levels() const;
 
-    /// Whether the parameter is the quantile of its own cube coordinate, which a copula does not
-    /// change.
+    /// Whether parameter k is the quantile of cube coordinate k, unchanged by a copula.
     [[nodiscard]] bool takes_own(std::size_t k) const { return !copula_ || copula_->leaves(k); }
 
-    /// Whether some parameter's distribution depends on others.
+    /// Whether the distribution of some parameter depends on other parameters.
     [[nodiscard]] bool conditional() const { return conditional_; }
     /// Whether some parameter is discrete.
     [[nodiscard]] bool discrete() const { return discrete_; }
 
-    /// Maps a row of the unit cube to parameters. Returns false if they violate a constraint.
+    /// Maps a row of the unit cube to parameters. Returns false if the parameters violate a
+    /// constraint.
     [[nodiscard]] bool from_cube(std::span<const double> cube, std::span<double> row) const;
 
     /// Maps each parameter back by its own distribution, ignoring constraints. Discrete values map
-    /// to the middle of their interval.
+    /// to the middle of their intervals.
     void to_cube(std::span<const double> row, std::span<double> cube) const;
 
     /// Whether every parameter has a possible value and all constraints hold.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Unit cube onto the named parameters of a parameter file. Each parameter is a quantile of its
-// distribution, which may depend on preceding parameters; a copula may join them; points that
+// distribution, which may depend on preceding parameters; a copula may join parameters; points that
 // violate a constraint are dropped.
 //
 //     x_k = F_k^-1(v_k | x_1 ... x_(k-1)),    v = copula(u)
@@ -20,8 +20,8 @@
 // Promise no point violates a constraint. The inverse of an outcome is the middle of its interval.
 //         The same bits on every machine.
 // Beware  with nonlinear constraints, or linear ones on parameters that are not uniform, the
-//         density is known only up to a factor. Densities and cells of known probability are then
-//         errors.
+//         density is known only up to a factor. Requests for densities or probabilities of cells
+//         then fail.
 
 #include <algorithm>
 #include <limits>
@@ -60,8 +60,8 @@ class ParameterDomain final : public NamedDomain {
         axes_ = each_->domain().get();
     }
 
-    /// Mapping of each coordinate alone, if the parameters are independent except for linear
-    /// constraints; otherwise null.
+    /// Mapping of each parameter alone, if they are independent except for linear constraints;
+    /// otherwise null.
     const Mapping* by_axes() const {
         return axes_ != nullptr && !space_.has_copula() && space_.density_known() ? each_.get()
                                                                                   : nullptr;
@@ -160,7 +160,7 @@ class ParameterDomain final : public NamedDomain {
                  "ranges");
     }
 
-    /// Bounding box of some images, for distributions that depend on other parameters. Uses fewer
+    /// Bounding box of random images, for distributions that depend on other parameters; of fewer
     /// images if there are many parameters.
     Box box_of_images() const {
         const std::size_t d = dimension();
@@ -244,8 +244,7 @@ class ParameterMapping final : public Mapping {
     bool in_cube_;
 };
 
-/// Domain whose spec contains the text of a parameter file. @param source name of the text in
-/// messages
+/// Domain whose spec contains a parameter file's text. @param source name of the text in messages
 std::shared_ptr<const ParameterDomain> domain_of(const std::string& text,
                                                  const std::string& source) {
     return std::make_shared<const ParameterDomain>(

@@ -20,7 +20,7 @@ namespace {
 
 struct Ranked {
     double number;
-    std::uint32_t tie;  ///< order of equal numbers
+    std::uint32_t tie;  ///< rank among equal numbers
     std::uint32_t point;
 
     bool operator<(const Ranked& other) const {
@@ -59,7 +59,7 @@ std::vector<double> quotient(const std::vector<double>& p, const std::vector<dou
     return s;
 }
 
-/// A set with its numbers sorted by coordinate, and with the scores of their ranks.
+/// A set's numbers, sorted for each coordinate, and the scores of their ranks.
 class ScoredSet {
   public:
     ScoredSet(std::span<const double> rows, const std::vector<MarginalPtr>& laws,
@@ -87,10 +87,11 @@ class ScoredSet {
         return numbers_[k].front() == numbers_[k].back();
     }
 
-    /// Whether some points have the same value of the parameter.
+    /// Whether several points have the same value of parameter k.
     [[nodiscard]] bool tied(std::size_t k) const { return tied_[k] != 0; }
 
-    /// Spearman's rank correlation of two parameters; 0 if one has the same value in all points.
+    /// Spearman's rank correlation of two parameters; 0 if one of them has the same value in all
+    /// points.
     [[nodiscard]] double rank_correlation(std::size_t j, std::size_t k,
                                           const std::vector<Ranks>& ranks) const {
         double sum = 0, of_j = 0, of_k = 0;
@@ -121,8 +122,7 @@ class ScoredSet {
         return e;
     }
 
-    /// Ranks of the points in the matrix R S^T of reordering.hpp, where S is lower triangular with
-    /// S_00 = 1.
+    /// Ranks of the points in the matrix R S^T of reordering.hpp; S is lower triangular, S_00 = 1.
     [[nodiscard]] std::vector<Ranks> transformed(const std::vector<double>& s) const {
         std::vector<Ranks> ranks(d_, ranks_[0]);
         for_each_block(run_, d_ - 1, 1, [&](const Block& column) {
@@ -137,7 +137,7 @@ class ScoredSet {
         return ranks;
     }
 
-    /// Writes to each coordinate of each point the number with the point's rank.
+    /// Gives each point, in each coordinate, the number whose rank equals the point's rank.
     void give_out(const std::vector<Ranks>& ranks, std::span<double> rows) const {
         for (std::size_t k = 0; k < d_; ++k)
             for (std::size_t i = 0; i < scores_.size(); ++i)
@@ -172,8 +172,7 @@ class ScoredSet {
     std::vector<std::uint8_t> tied_;
 };
 
-/// Adjusts the requested correlations of the scores until the ranks have the requested
-/// correlations.
+/// Adjusts the requested score correlations until the ranks have the requested correlations.
 class Corrections {
   public:
     Corrections(const std::vector<double>& spearman, std::vector<double> scores,
@@ -205,7 +204,7 @@ class Corrections {
     double next(std::size_t j, std::size_t k, double lacks) {
         const double now = asked_[j * d_ + k];
         if (!set_.tied(j) && !set_.tied(k)) return now + lacks;
-        // Factor for the error, since ties make ranks respond more, or less, to scores.
+        // Factor for the error: with ties, ranks change more, or less, than scores.
         double& step = step_[j * d_ + k];
         double& before = before_[j * d_ + k];
         if (std::abs(lacks) > std::abs(before) / 2 && before != 0)
@@ -220,7 +219,7 @@ class Corrections {
     std::size_t d_;
     std::vector<double> asked_;  ///< correlations requested for the scores
     std::vector<double> step_;
-    std::vector<double> before_;  ///< previous error
+    std::vector<double> before_;  ///< error before the last correction
 };
 
 /// Matrix Q of reordering.hpp. @throws Error(input) if the scores' correlations have no Cholesky

@@ -129,8 +129,8 @@ struct PairCriteria {
     double maxpro = 0;
 };
 
-/// @param minimum the smallest distance; if it is 0, or if points share coordinates, criteria are
-/// infinite
+/// @param minimum the smallest distance; criteria are infinite if it is 0 or points share
+/// coordinates
 PairCriteria pair_criteria(const PointSet& points, double p, double minimum,
                            const RunContext& run) {
     constexpr std::uint64_t size = 16;
@@ -165,7 +165,7 @@ PairCriteria pair_criteria(const PointSet& points, double p, double minimum,
 }
 
 /// Largest absolute correlation of two coordinates, and root mean square of all correlations.
-/// Constant coordinates are left out; nullopt if fewer than two others remain.
+/// Constant coordinates are left out; nullopt if fewer than two coordinates remain.
 struct Correlation {
     AtAxes largest;
     double rms = 0;
@@ -218,8 +218,7 @@ AtAxes closest_on_axis(const PointSet& points) {
     return closest;
 }
 
-/// Smallest distance of two points in any projection to two axes, in O(n log n) for each
-/// projection.
+/// Smallest distance of two points in any projection to two axes, in O(n log n) for each.
 AtAxes closest_on_plane(const PointSet& points, const RunContext& run) {
     AtAxes closest{infinite, {}};
     for (std::size_t a = 1; a < points.dimension(); ++a)
@@ -233,7 +232,7 @@ AtAxes closest_on_plane(const PointSet& points, const RunContext& run) {
     return closest;
 }
 
-/// Adds a criterion unless it is infinite, as it may be if two points share a coordinate.
+/// Adds a criterion unless it is infinite, which happens if two points share a coordinate.
 void add_finite(Report& report, const char* name, double value) {
     if (std::isfinite(value)) report.add(name, value);
 }

@@ -64,7 +64,7 @@ double trace_of_inverse(std::span<const double> factor, std::size_t p, const Run
     return trace;
 }
 
-/// Largest f^T M^-1 f over `count` places x; place(i, x) writes the i-th.
+/// Largest f^T M^-1 f over `count` points x; place(i, x) writes the i-th to x.
 template <class Place>
 double largest_variance(std::span<const double> factor, std::size_t dimension, Model model,
                         std::uint64_t count, const Place& place, const RunContext& run) {

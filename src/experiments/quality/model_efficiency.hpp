@@ -7,10 +7,10 @@
 //     D = det(M)^(1/p) / n,     A = p / (n trace(M^-1)),     G = p / (n max_x f(x)^T M^-1 f(x)),
 //
 // which are 1 for an orthogonal design with all coordinates at -1 and 1, if one exists. All are 0
-// if M is singular. The terms are 1 and x_i (linear), also x_i x_j (interaction), also x_i^2
-// (quadratic).
+// if M is singular. The terms are 1 and x_i (linear), with x_i x_j (interaction), and with x_i^2 as
+// well (quadratic).
 //
-// Cost    O(n p^2 + p^3 + c p^2) for c candidate places x of the maximum in G.
+// Cost    O(n p^2 + p^3 + c p^2) for c candidate points x of the maximum in G.
 // Source  A. C. Atkinson, A. N. Donev, R. D. Tobias, "Optimum Experimental Designs, with SAS",
 //         Oxford 2007, chapters 9 to 11.
 #pragma once
@@ -31,7 +31,7 @@ struct Efficiency {
     double a = 0;
     double g = 0;
 
-    /// Candidate places for the maximum in G: "corners" of the cube, which contain the maximum for
+    /// Candidate points for the maximum in G: "corners" of the cube, which contain the maximum for
     /// the first two models; the "grid" of -1, 0, 1; or, if there are too many of either, the
     /// design's own "points".
     const char* places = "";

@@ -36,7 +36,7 @@ struct TermTable {
 /// Computes statistics from the means of the terms.
 using Statistics = std::function<void(std::span<const double> means, std::span<double> values)>;
 
-inline constexpr std::size_t least_rows = 10;  ///< fewer rows give no intervals
+inline constexpr std::size_t least_rows = 10;  ///< fewer rows of terms give no intervals
 
 /// Returns the first `count` statistics, computed from all rows, with their bootstrap intervals.
 std::vector<Index> bootstrapped(const TermTable& table, std::size_t count,

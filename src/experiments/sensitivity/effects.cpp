@@ -32,7 +32,7 @@ Centred centred(std::span<const double> y) {
     const double largest = std::max(std::abs(low), std::abs(high));
     if (!(largest > 0)) return {.z = {y.begin(), y.end()}};
     // Sums of differences from the middle have the rounding errors of the differences, which are
-    // smaller than those of the numbers.
+    // smaller than the rounding errors of the numbers.
     const double middle = low / 2 + high / 2;
     const double reach = std::max(high / 2 - low / 2, std::numeric_limits<double>::min());
     Centred out{.z = {y.begin(), y.end()}, .unit = reach};

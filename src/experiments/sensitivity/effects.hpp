@@ -45,18 +45,18 @@ struct Setting {
     std::size_t bootstrap = 1000;  ///< number of resamples; 0: no bootstrap intervals
     double level = 0.95;
     std::uint64_t seed = 1;
-    std::optional<std::size_t> harmonics = {};  ///< fast: number M; by default from the curves
-    std::optional<std::size_t> degree = {};     ///< chaos: degree; by default chosen
+    std::optional<std::size_t> harmonics = {};  ///< fast: harmonics M; default: from the curves
+    std::optional<std::size_t> degree = {};     ///< chaos: degree; default: chosen by the fit
 };
 
-/// An index with its interval; unknown numbers are NaN.
+/// An index with its interval; unknown values are NaN.
 struct Index {
     double value = 0;
     double low = none;
     double high = none;
 };
 
-/// One kind of index, for every input.
+/// One kind of index, such as "first", for every input.
 struct IndexKind {
     std::string name;
     std::vector<Index> of;
@@ -76,7 +76,7 @@ struct Effects {
     double variance = none;
     std::vector<IndexKind> kinds = {};
     std::vector<PairIndex> pairs = {};
-    Report details = {};            ///< further numbers of the method
+    Report details = {};            ///< further results of the method
     std::string no_intervals = {};  ///< why intervals are left out; empty if they are given
     /// Reason for each input without indices; may be empty.
     std::vector<std::string> missing = {};
@@ -84,7 +84,7 @@ struct Effects {
 
 /// How a method groups the rows of a design; if the rows do not fit, the reason.
 struct Layout {
-    std::size_t group = 0;  ///< number of rows that belong together
+    std::size_t group = 0;  ///< number of consecutive rows in a group
     /// Morris: every row of a group differs from its first row, not from the previous one.
     bool star = false;
     std::size_t harmonics = 0;  ///< fast: number M of harmonics
@@ -115,7 +115,7 @@ std::vector<double> picked(std::span<const double> y, std::span<const std::size_
 /// Indices of the groups of `group` consecutive runs in which no run failed.
 std::vector<std::size_t> complete_groups(std::span<const double> y, std::size_t group);
 
-/// With fewer runs, the methods for any design do not compute intervals.
+/// Smallest number of runs with which the methods for any design compute intervals.
 inline constexpr std::size_t least_for_intervals = 20;
 std::string too_few_for_intervals(std::size_t count, std::size_t least, const char* of_what);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Elementary effects, or Morris screening: on trajectories, one input moves at a time; on stars,
+// Elementary effects, or Morris screening: on trajectories, one input moves in each step; on stars,
 // each input moves from the centre,
 //
 //     EE_i = (f(x + step along i) - f(x)) / step,    mu = mean EE, mu* = mean |EE|,

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Extended FAST: the design has a curve for each input i. On this curve input i oscillates with a
-// high frequency w = floor((N - 1) / (2 M)), and all other inputs with frequencies up to w / (2 M).
-// With the power P(f) = |1/N sum_s y_s exp(-2 pi i f s / N)|^2 of the output along the curve,
+// high frequency w = floor((N - 1) / (2 M)), and all other inputs with frequencies up to w / (2 M),
+// M being --harmonics. With the power P(f) = |1/N sum_s y_s exp(-2 pi i f s / N)|^2 of the output
+// along the curve,
 //
 //     S_i = sum_{p = 1..M} P(p w) / V,    ST_i = 1 - sum_{f = 1..w/2} P(f) / V,
 //

@@ -3,7 +3,7 @@
 // Orthogonal matching pursuit: adds terms to a least squares fit one by one, each time the term
 // that correlates most with the residual. It keeps the number of terms t that minimizes
 //
-//     (mean square of e_i / (1 - h_i)) n / (n - t) (1 + trace of inverse Gram matrix) P^(2t/n)
+//     (mean square of e_i / (1 - h_i)) n / (n - t - 1) (1 + trace of inverse Gram matrix) P^(2t/n)
 //
 // for terms chosen from P candidates, where e_i / (1 - h_i) are the leave-one-out errors. The last
 // factor compensates for choosing the best of P candidates, which reduces the error even for pure
@@ -25,7 +25,7 @@ namespace stipple::analyzers::sensitivity {
 
 inline constexpr std::size_t most_terms = 300;  ///< largest number of terms in a fit
 
-/// Candidate terms: the columns of a table, stored row by row. The fit uses some of the rows.
+/// Candidate terms: the columns of a table, stored row by row. The fit uses only the given rows.
 struct Candidates {
     std::span<const double> values;
     std::size_t columns;

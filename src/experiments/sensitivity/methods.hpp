@@ -10,8 +10,7 @@ namespace stipple::analyzers::sensitivity {
 
 Layout find_pick_freeze(const PointSet& design);
 
-/// Sobol' indices; ignores base rows with a failed run. @throws Error(input) if too few base rows
-/// remain
+/// Sobol' indices; ignores base rows with a failed run. @throws Error(input) if too few remain
 Effects pick_freeze(const Layout& layout, const Inputs& inputs, const Response& response,
                     const Setting& setting, const RunContext& run);
 
@@ -47,8 +46,7 @@ std::optional<Effects> polynomial_chaos(const Inputs& inputs, const Response& re
 /// quickly.
 double share_of_neighbors(const PointSet& points, const RunContext& run);
 
-/// Warns of the two inputs with the largest rank correlation, if it is too large for independent
-/// inputs.
+/// Warns of the two inputs with the largest rank correlation if it refutes independence.
 void note_dependence(const Inputs& in, const RunContext& run);
 
 }  // namespace stipple::analyzers::sensitivity

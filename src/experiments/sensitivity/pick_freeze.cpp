@@ -37,8 +37,8 @@ bool is_mixed(std::span<const double> row, std::span<const double> whole,
     return true;
 }
 
-/// Index of the first row that does not fit groups of this size. The number of rows if all fit; 0
-/// if the first and last rows of all groups are equal.
+/// Index of the first row that does not fit groups of this size; the number of rows if all rows
+/// fit; 0 if the first and last rows of all groups are equal.
 std::size_t first_unfit(const PointSet& design, std::size_t group) {
     const std::size_t k = design.dimension();
     bool moves = false;
@@ -77,7 +77,7 @@ bool is_factorial(const PointSet& design, std::size_t group) {
     return expected >= most;
 }
 
-/// Appends the terms of a base row with the outputs `f`: those of V, then those of first, total and
+/// Appends the terms of a base row with the outputs `f`: terms of V, then terms of first, total and
 /// second order indices.
 void append_terms(std::span<const double> f, std::size_t k, std::vector<double>& terms) {
     const double a = f.front();
@@ -97,7 +97,7 @@ void append_terms(std::span<const double> f, std::size_t k, std::vector<double>&
 /// All are NaN if the variance, which comes from the first and last rows of groups, is only
 /// rounding error.
 void indices_of(std::span<const double> means, std::size_t k, std::span<double> values) {
-    constexpr double rounding = 1e-12;  // relative to the largest output, 1
+    constexpr double rounding = 1e-12;  // relative to the largest output, scaled to 1
     const double variance = means[1] - means[0] * means[0];
     if (!(variance > rounding)) {
         std::ranges::fill(values, none);

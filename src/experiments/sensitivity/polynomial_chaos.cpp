@@ -6,9 +6,9 @@
 // distribution of their input: a uniform one, or that of its values in the sample. In the latter
 // case the mean over the runs of P_a(x_i) P_b(x_i) is 1 for a = b, otherwise 0. An input with m
 // values then has polynomials of degree 0 to m - 1, which represent functions of discrete inputs
-// exactly. So p has orthogonal parts. Each index belongs to the part p_u of
-// a group u of terms: those with input i alone (first), all with input i (total), or those with
-// inputs i and j only (second).
+// exactly. So p has orthogonal parts. Each index belongs to the part p_u of a group u of terms:
+// those with input i alone (first), all with input i (total), or those with inputs i and j only
+// (second).
 //
 // Five times, a polynomial is fitted to four fifths of the runs: degree, terms and coefficients are
 // chosen from these alone (matching_pursuit.hpp). Let r = f - p be its errors in the other fifth.
@@ -106,7 +106,8 @@ Distribution distribution_of(std::span<const double> x, const std::vector<double
     return out;
 }
 
-/// Appends x times the last polynomial, made orthonormal to all others; false if nothing remains.
+/// Appends x times the last polynomial, made orthonormal to all others; false if only rounding
+/// errors remain.
 bool append_next(const Distribution& law, std::vector<std::vector<double>>& polynomials) {
     std::vector<double> next = polynomials.back();
     for (std::size_t i = 0; i < next.size(); ++i) next[i] *= law.x[i];
@@ -202,7 +203,7 @@ constexpr std::size_t fold_count = 5;
 struct Basis {
     std::string scale;
     std::vector<Polynomials> inputs = {};
-    /// The polynomials are for known distributions, not for those of the sample.
+    /// Whether the polynomials are for known distributions, not for those of the sample.
     bool known = false;
 };
 
@@ -245,7 +246,7 @@ std::vector<Fold> folds_of(std::size_t n) {
     return folds;
 }
 
-/// Replaces the polynomial by the best one with the table's terms, if that has a smaller error.
+/// Replaces the fold's polynomial by the best one with terms of the table if its error is smaller.
 void improve(Fold& fold, const Table& table, const Basis& basis, std::span<const double> z,
              const RunContext& run) {
     const std::size_t columns = table.terms.size();
@@ -350,7 +351,7 @@ double mean_of(std::span<const double> values) {
 struct Judgement {
     bool known = false;  ///< whether the inputs' distributions are known
     std::vector<double> error;
-    /// One number per run: the term of V, or the squared output if the distributions are unknown.
+    /// Per run the term of V, or the squared output if the distributions are unknown.
     std::vector<double> moving = {};
     double variance = 0;  ///< V, the variance of the output
     double q2 = 0;
@@ -445,8 +446,8 @@ std::vector<double> column_of(std::span<const double> table, std::size_t width, 
 }
 
 /// Legendre polynomials for inputs that are known to be uniform or look uniform; otherwise
-/// polynomials of the values. Adds a second basis, with polynomials of the ranks, if that may
-/// matter.
+/// polynomials of the values. Adds a second basis, of polynomials of the ranks, if values and ranks
+/// differ enough.
 std::vector<Basis> bases_of(const Inputs& inputs, std::span<const std::size_t> runs,
                             std::size_t degree) {
     const std::size_t k = inputs.size();
@@ -476,7 +477,7 @@ std::vector<Basis> bases_of(const Inputs& inputs, std::span<const std::size_t> r
     return bases;
 }
 
-/// Pairs of inputs that occur together in a term of only these inputs.
+/// Pairs of inputs that occur together in a term without other inputs.
 std::set<std::pair<std::size_t, std::size_t>> pairs_in(std::span<const Fold> folds) {
     std::set<std::pair<std::size_t, std::size_t>> pairs;
     for (const Fold& fold : folds)

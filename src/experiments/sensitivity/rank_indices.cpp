@@ -17,9 +17,8 @@
 // points, whose neighbors in one coordinate are related in the others. The points of a larger
 // window are well spread in the other coordinates.
 //
-// The interval extends by Student's quantile times the standard error se to both sides, with the
-// degrees of freedom of W or sqrt(n) windows. With m_j the mean of the other runs in the window of
-// run j,
+// The interval extends by Student's quantile times the standard error se to both sides, with max(W,
+// sqrt(n)) - 1 degrees of freedom. With m_j the mean of the other runs in the window of run j,
 //
 //     (n V se)^2 = n var(2 z_j m_j - z_g^2 - S_i z_j^2) + sum 2 n_g / (n_g - 1) s_g^4,
 //
@@ -56,7 +55,7 @@
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-/// A run, sorted by one input: the input's value x and the centred output z.
+/// A run in the order of one input: the input's value x and the centred output z.
 struct Ordered {
     double x;
     double z;
@@ -113,7 +112,7 @@ double chance_of(std::span<const Window> windows) {
 }
 
 /// Loss of sum n_g z_g^2 if windows had twice the size, summed over both ways to join neighbors.
-/// Skips pairs of windows in which the input is constant, since they hide nothing.
+/// Skips pairs of windows in which the input is constant, since such pairs hide nothing.
 double hidden_in(std::span<const Window> windows) {
     double sum = 0;
     for (std::size_t g = 1; g < windows.size(); ++g) {

@@ -102,7 +102,7 @@ Numbers named_columns(const Names& wanted, const Names& names) {
     return columns;
 }
 
-/// Indices of the columns that the known names select. @throws Error(input) if some are missing
+/// Indices of the columns that the known names select. @throws Error(input) if columns are missing
 Numbers known_columns(const Known& known, const Columns& from) {
     Numbers columns = named_columns(known.names, from.names);
     if (!columns.empty()) return columns;
@@ -145,7 +145,7 @@ bool independent(const Domain& domain, const PointSet& points) {
             try {
                 const double before = std::log(domain.density(x)) + std::log(domain.density(y));
                 const double after = std::log(domain.density(a)) + std::log(domain.density(b));
-                if (!std::isfinite(before)) continue;  // infinite at the end of a range
+                if (!std::isfinite(before)) continue;  // density infinite at the end of a range
                 if (!(std::abs(after - before) <= rounding * (1 + std::abs(before)))) return false;
             } catch (const Error&) {  // unknown density, as with constraints
                 return false;

@@ -15,7 +15,7 @@ namespace stipple::analyzers::sensitivity {
 struct ColumnsAsked {
     std::string design = {};    ///< file of the inputs; empty: the table contains them
     std::string inputs = {};    ///< columns of the design or, without a design, of the table
-    std::string response = {};  ///< columns of the table
+    std::string response = {};  ///< output columns of the table
 };
 
 struct Runs {

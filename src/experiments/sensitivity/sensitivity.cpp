@@ -203,7 +203,7 @@ Effects of_any_design(std::string& chosen, const Inputs& in, const Response& out
     return effects;
 }
 
-/// Reason why no method can compute indices of an output; empty if one can.
+/// Reason why no method can compute indices of an output; empty if some method can.
 std::string why_none(const std::string& taken, const Response& out) {
     const auto y = picked(out.y, succeeded(out.y));
     if (y.empty()) return "all runs failed";
@@ -243,7 +243,7 @@ std::string key_of(std::string name, const Report& taken) {
     return name;
 }
 
-/// Adds an index and its interval, unless they are infinite or NaN.
+/// Adds an index and its interval, without values that are infinite or NaN.
 void add(Report& report, const std::string& name, const Index& index) {
     if (!std::isfinite(index.value)) return;
     report.add(name, index.value);
@@ -252,7 +252,7 @@ void add(Report& report, const std::string& name, const Index& index) {
     report.add(name + "_high", index.high);
 }
 
-/// Indices of one input and, if some are missing, the reason.
+/// Indices of one input and, if some indices are missing, the reason.
 Report report_of_input(const Effects& effects, std::size_t i) {
     Report own;
     const auto known = [i](const IndexKind& kind) { return std::isfinite(kind.of[i].value); };

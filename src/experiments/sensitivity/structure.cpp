@@ -15,7 +15,7 @@
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-/// Limit for the numbers to examine, which takes a second or less.
+/// Limit for the number of values to examine, which takes a second or less.
 constexpr double most_work = 1e8;
 
 struct Levels {
@@ -116,7 +116,7 @@ void note_dependence(const Inputs& in, const RunContext& run) {
                 at = {a, b};
             }
         }
-    // For independent inputs, the largest correlation exceeds this in one of 10^4 designs.
+    // For independent inputs, the largest correlation exceeds this limit in one of 10^4 designs.
     if (largest <= std::sqrt(2 * std::log(1e4 * pairs))) return;
     run.notify(
         fmt::format("the inputs {} and {} depend on each other: their rank correlation is {:.2f}; "
