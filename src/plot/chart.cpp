@@ -17,7 +17,7 @@ constexpr double panel_gap = 12;
 constexpr double legend_row = 19;
 constexpr double legend_size = 12;
 constexpr double swatch = 22;
-constexpr std::size_t most_entries = 12;  ///< limit for curves and bars in a legend
+constexpr std::size_t most_entries = 12;  ///< limit for the entries of a legend
 constexpr double least_panels = 60;       ///< smallest total height of the panels, in units
 
 /// Range of values on an axis, which grows with the values taken.
@@ -93,7 +93,7 @@ Axis x_axis(std::span<const ChartPanel> panels, const PictureStyle& style) {
     // An axis that would begin close to zero begins at zero.
     const bool near_zero = !span.log && span.low > 0 && span.low < 0.04 * span.high;
     if (near_zero) axis.low = 0;
-    constexpr double share = 0.02;  // leaves space for marks at the ends
+    constexpr double share = 0.02;  // space for marks at the ends, as a fraction
     if (!style.tight && marked(panels) && span.low < span.high)
         widen(axis, share, near_zero && span.low > share * span.high);
     return axis;
@@ -117,7 +117,7 @@ Axis y_axis(const ChartPanel& panel, const PictureStyle& style) {
     }
     for (const Bars& bars : panel.bars) span.take(bars.heights);
     require_shown(span.low, span.high);
-    // Guides far outside the data are not shown.
+    // Guides far outside the data do not extend the axis.
     const double reach = span.high - span.low;
     for (const Guide& guide : panel.guides)
         for (const double y : guide.y) {
@@ -266,7 +266,7 @@ void draw_bars(Drawing& drawing, const Panel& panel, const Bars& bars, Colour co
     for (std::size_t i = 0; i < bars.heights.size(); ++i) {
         const double left = panel.x(bars.edges[i]);
         const double right = panel.x(bars.edges[i + 1]);
-        // Leaves a thin gap between bars if they are wide enough.
+        // Leaves a thin gap between bars that are wide enough.
         const double space = right - left > 4 ? 0.5 : 0;
         const double top = panel.y(bars.heights[i]);
         if (!(top < base)) continue;
@@ -419,7 +419,7 @@ std::vector<Guide> falling_guides(const Series& series) {
     if (first == series.y.end() || series.x.size() < 3) return {};
     const double n = series.x[static_cast<std::size_t>(first - series.y.begin())];
     if (!(n > 0)) return {};
-    constexpr double aside = 1.5;  // factor that separates them from the curve
+    constexpr double aside = 1.5;  // factor between the curve's first value and the guides
     std::vector<Guide> guides;
     for (const double power : {0.5, 1.0}) {
         Guide guide{.name = guides.empty() ? "falling as 1/√n and as 1/n" : ""};
@@ -453,7 +453,7 @@ void name_slope(Series& series) {
         return residual * residual;
     });
     const double error = size < 3 ? 0 : std::sqrt(rest / (m - 2) / spread);
-    const bool fine = error < 0.005 && error >= 5e-5;  // needs more than two digits
+    const bool fine = error < 0.005 && error >= 5e-5;  // the error needs more than two digits
     const int digits = fine ? static_cast<int>(-std::floor(std::log10(error))) : 2;
     const std::string deviation = size < 3 ? "" : " ± " + printed(error, digits);
     series.name += fmt::format(" (slope {}{})", printed(slope, digits), deviation);

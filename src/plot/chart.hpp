@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Charts of curves: panels one above the other, usually with a common x axis, each below its
-// legend.
+// Charts of curves: panels one above another, usually with a common x axis, each below its legend.
 #pragma once
 
 #include <limits>
@@ -31,7 +30,7 @@ struct PictureStyle {
     std::optional<std::size_t> letter = {};
     std::optional<bool> log_x = {};
     std::optional<bool> log_y = {};
-    bool tight = false;  ///< axes of charts end exactly at the data
+    bool tight = false;  ///< whether axes of charts end exactly at the data
 };
 
 /// A curve, or bars with one value for each category. Values that are not finite are gaps.
@@ -52,10 +51,10 @@ struct Guide {
     std::string name = {};
     std::vector<double> x = {};  ///< empty: a horizontal line at y[0]
     std::vector<double> y = {};
-    bool reached = false;  ///< the y axis always includes the line
+    bool reached = false;  ///< whether the y axis always includes the line
 };
 
-/// Bars of a histogram; there is one more edge than heights.
+/// Bars of a histogram. There is one more edge than there are heights.
 struct Bars {
     std::string name = {};
     std::vector<double> edges = {};
@@ -66,7 +65,7 @@ struct ChartPanel {
     std::string x_name;
     std::string y_name;
     std::vector<Series> series = {};
-    std::vector<Series> bands = {};  ///< ranges of random variation, drawn from low to high
+    std::vector<Series> bands = {};  ///< ranges of random variation, filled from `low` to `high`
     std::vector<Guide> guides = {};
     std::vector<Bars> bars = {};
     /// Names along the x axis, at 1, 2, ... If not empty, the series are drawn as bars from 0, side
@@ -76,9 +75,9 @@ struct ChartPanel {
     bool log_x = false;
     bool log_y = false;
     bool whole_x = false;
-    bool from_zero = false;  ///< the y axis starts at 0
+    bool from_zero = false;  ///< whether the y axis starts at 0
     double reach_y =
-        -std::numeric_limits<double>::infinity();  ///< a linear y axis includes this value
+        -std::numeric_limits<double>::infinity();  ///< value that a linear y axis includes
     /// Limit below which a logarithmic y axis does not extend.
     double least_y = -std::numeric_limits<double>::infinity();
     double share = 1;  ///< height relative to other panels
@@ -88,11 +87,10 @@ struct Chart {
     std::string title;
     std::string subtitle = {};
     std::vector<ChartPanel> panels = {};
-    bool own_x = false;  ///< each panel has its own x axis
+    bool own_x = false;  ///< whether each panel has its own x axis
 };
 
-/// Whether a panel has several curves or bars, and their names differ from those of the panel
-/// above.
+/// Whether a panel has several curves or bars whose names differ from those of the panel above.
 bool needs_legend(const Chart& chart, std::size_t panel);
 
 /// Left and right end of a series' bar along x, in the category at x.
@@ -146,11 +144,10 @@ inline std::string_view last_part(std::string_view key) { return key.substr(key.
 /// A result's name on an axis: "radial power" for "radial.power".
 std::string words_of(std::string name);
 
-/// Guides that decrease as n^(-1/2) and n^(-1), starting slightly above the curve's first positive
-/// value.
+/// Guides falling as n^(-1/2) and n^(-1), from slightly above the curve's first positive value.
 std::vector<Guide> falling_guides(const Series& series);
 
-/// Adds the exponent of n in a power law, fitted to the curve by least squares of the logarithms, to
+/// Adds the exponent of n in a power law, fitted to the curve by least squares of logarithms, to
 /// its name: "halton (slope −0.98 ± 0.02)". The standard error needs three values. Curves with
 /// fewer than two values, or with values that are not positive, have no slope.
 void name_slope(Series& series);
@@ -165,11 +162,11 @@ void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Posi
 Bars histogram_of(std::span<const double> values, double low, double high, std::size_t bins,
                   bool log = false);
 
-/// Whether all values are whole, and small enough for halves between them.
+/// Whether all values are whole, and so small that halves between them are exact.
 bool are_whole(std::span<const double> values);
 
-/// Histogram of whole numbers from `low` to `high`, with edges between them: one bin for each or, if
-/// there are more than `most` and more than 20, bins with equally many, except for the last, which
+/// Histogram of whole numbers from `low` to `high`, with edges between: one bin for each number or,
+/// if there are more than `most` and more than 20, bins of equally many, except for the last, which
 /// may have fewer. If `log`, bins are about equal in logarithms.
 Bars whole_histogram(std::span<const double> values, double low, double high, std::size_t most,
                      bool log = false);

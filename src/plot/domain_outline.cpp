@@ -19,13 +19,13 @@
 namespace stipple::plot {
 namespace {
 
-constexpr std::size_t cells_a_side = 200;  ///< resolution of the grid
+constexpr std::size_t cells_a_side = 200;  ///< cells of the grid along each side
 
 class Tracer {
   public:
     explicit Tracer(const Domain& domain) : domain_(domain), box_(domain.bounding_box()) {
         // Extends the grid beyond the box, so that the whole boundary is inside. The fraction is
-        // odd, so that grid lines do not coincide with edges aligned with the box.
+        // irregular, so that grid lines do not coincide with edges aligned with the box.
         for (std::size_t k = 0; k < 2; ++k) {
             const double more = 0.0137 * box_.extent(k);
             box_.low[k] -= more;
@@ -70,7 +70,7 @@ class Tracer {
         return inside_[j * (cells_a_side + 1) + i] != 0;
     }
 
-    /// A point of the boundary between a position inside and one outside, by bisection.
+    /// A point of the boundary between a position inside the domain and one outside, by bisection.
     [[nodiscard]] Position boundary_between(Position in, Position out) const {
         for (int halving = 0; halving < 30; ++halving) {
             const Position middle{(in.x + out.x) / 2, (in.y + out.y) / 2};
@@ -86,9 +86,9 @@ class Tracer {
         return inside_at(edge.i, edge.j) ? boundary_between(a, b) : boundary_between(b, a);
     }
 
-    /// Records how the boundary crosses a cell, with the inside on its left. `ways` is indexed by
-    /// the bits of the corners that are inside. "0321" means: from side 0 to 3 and from 2 to 1 (0
-    /// bottom, 1 right, 2 top, 3 left).
+    /// Records how the boundary crosses a cell, with the inside on its left. `ways` has an entry
+    /// for each set of corners that are inside, as bits. "0321" means: from side 0 to 3 and from 2
+    /// to 1 (0 bottom, 1 right, 2 top, 3 left).
     void cross_cell(std::size_t i, std::size_t j) {
         static constexpr std::array<std::string_view, 16> ways = {
             "",   "03", "10",   "13", "21", "0321", "20", "23",
@@ -114,8 +114,8 @@ class Tracer {
         return line;
     }
 
-    /// Extends the line to `to`; splits this piece where the boundary deviates from it, as at
-    /// corners and bends.
+    /// Extends the line to `to`; splits the segment where the boundary deviates from it, as at
+    /// corners.
     void refine(std::vector<Position>& line, Position to, int depth) const {
         const Position from = line.back();
         const Position middle{(from.x + to.x) / 2, (from.y + to.y) / 2};
@@ -133,7 +133,7 @@ class Tracer {
         }
     }
 
-    /// Point of the boundary on the perpendicular through a piece's middle, at most the piece's
+    /// Point of the boundary on the perpendicular through a segment's middle, at most the segment's
     /// length away; nullopt if not found.
     [[nodiscard]] std::optional<Position> boundary_beside(Position middle, Position from,
                                                           Position to) const {

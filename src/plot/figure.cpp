@@ -116,8 +116,8 @@ void add_moved(Drawing& drawing, Drawing part, double right, double down) {
 }
 
 /// Number of columns for `parts` drawings that are about square. If `ratio` is the sheet's width
-/// over height, chooses the number that makes the drawings largest. If it is 0: one row for up to
-/// three drawings, otherwise two, three or four columns.
+/// over height, chooses the number that makes the drawings largest. If `ratio` is 0: one row for up
+/// to three drawings, otherwise two, three or four columns.
 std::size_t sheet_columns(std::size_t parts, double ratio) {
     if (ratio > 0) {
         const auto rows_of = [parts](std::size_t columns) {
@@ -167,7 +167,7 @@ void fill_height(Drawing& drawing, double height) {
 /// Arrangement of frames on a sheet.
 struct Places {
     std::size_t columns;
-    double across;  ///< number of columns
+    double across;  ///< number of columns, as a floating-point number
     double rows;
     double usual;  ///< usual width and height of a frame
     double more;   ///< additional width of the last frame in each row, for a colour bar
@@ -238,7 +238,8 @@ Drawing fitted(PictureStyle& style, const Draw& draw) {
     constexpr int most = 12;
     const PictureStyle asked = style;
     const bool requested = asked.width > 0 || asked.height > 0;
-    std::optional<std::pair<Drawing, PictureStyle>> crowded;  // the first where only texts overlap
+    // first trial where only texts overlap
+    std::optional<std::pair<Drawing, PictureStyle>> crowded;
     for (int round = 0;; ++round) {
         Trial trial(draw, style);
         if (trial.fits && trial.apart) return std::move(trial.drawing);

@@ -14,7 +14,7 @@
 namespace stipple::plot {
 
 struct Frame {
-    std::string title;  ///< for text
+    std::string title;  ///< title of the frame in text output
     std::function<Drawing(const PictureStyle&, bool last_in_row)> draw;
     std::function<std::string(const TextRoom&)> write;
     std::size_t panels = 1;  ///< number of panels that can have a letter
@@ -22,8 +22,8 @@ struct Frame {
 };
 
 /// Draws with smaller and smaller scales, which leave more room, until the picture has the
-/// requested size, its texts are within it, and no text covers another. A picture of automatic size
-/// becomes larger instead. Sets the style's scale, width and height.
+/// requested size, its texts are within it and, if possible, no text covers another. A picture of
+/// automatic size becomes larger instead. Sets the style's scale, width and height.
 /// @throws Error(usage) if letters would be too small
 Drawing fitted(PictureStyle& style, const std::function<Drawing(const PictureStyle&)>& draw);
 

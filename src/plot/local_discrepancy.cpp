@@ -19,7 +19,7 @@ double middle_of_cell(std::size_t cell, std::size_t cells) {
     return (static_cast<double>(cell) + 0.5) / static_cast<double>(cells);
 }
 
-/// Index of the first cell whose middle is above x; `cells` if no middle is.
+/// Index of the first cell whose middle is above x; `cells` if there is none.
 std::size_t first_cell_above(double x, std::size_t cells) {
     const auto all = static_cast<double>(cells);
     auto cell = static_cast<std::size_t>(std::min(std::floor(x * all + 0.5), all));
@@ -30,7 +30,7 @@ std::size_t first_cell_above(double x, std::size_t cells) {
 }
 
 std::optional<AnchoredBox> box_of(const discrepancy::WorstBox& worst, double sign) {
-    constexpr double rounding = 1e-12;  // error of a value that is 0
+    constexpr double rounding = 1e-12;  // largest rounding error of a value that is 0
     if (!(worst.value() > rounding)) return std::nullopt;
     const auto corner = worst.corner(&discrepancy::Interval::upper);
     return AnchoredBox{.corner = {corner[0], corner[1]}, .value = sign * worst.value()};

@@ -25,8 +25,7 @@
 
 namespace stipple::plot {
 
-/// A box from the origin and its local discrepancy: negative for open boxes, positive for closed
-/// ones.
+/// A box from the origin and its local discrepancy: negative if open, positive if closed.
 struct AnchoredBox {
     Position corner;
     double value = 0;
@@ -62,7 +61,7 @@ struct LocalDiscrepancyFrame {
     double resolution = 2;  ///< pixels per unit of the drawing; at most 2048 per side
 };
 
-/// Draws the image, the worst boxes, and the points, except if these would cover the image.
+/// Draws the image, the worst boxes, and the points, unless they would cover the image.
 Drawing draw_local_discrepancy(const PointSet& points, const WorstBoxes& worst,
                                const LocalDiscrepancyFrame& around, const PictureStyle& style,
                                const RunContext& run);

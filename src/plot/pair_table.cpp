@@ -16,7 +16,7 @@ namespace {
 
 constexpr double text_size = 11;
 
-/// Adds the number in each square: as it is if it fits, otherwise as an integer of the `unit`.
+/// Adds the number in each square: as it is if it fits, otherwise as a multiple of `unit`.
 void add_numbers(Drawing& drawing, const PairTable& table, const Panel& panel, double largest,
                  double unit, const Theme& theme) {
     const double side = panel.x(2) - panel.x(1);
@@ -35,14 +35,14 @@ void add_numbers(Drawing& drawing, const PairTable& table, const Panel& panel, d
         }
 }
 
-/// Unit for numbers in squares of this side: 1 if the numbers themselves fit; 0 if none fits.
+/// Unit for numbers in squares of this side: 1 if they fit, else a power of ten; 0 if none fits.
 double number_unit(const PairTable& table, double largest, double side) {
     double widest = 0;
     for (const double value : table.values)
         widest = std::max(widest, text_width(rounded(value, 2), std::min(text_size, 0.42 * side)));
     if (side < 12 || !(largest > 0)) return 0;
     if (1.16 * widest < side - 2) return 1;
-    return std::pow(10, std::floor(std::log10(largest)) - 1);  // gives two digits
+    return std::pow(10, std::floor(std::log10(largest)) - 1);  // at most two digits
 }
 
 }  // namespace

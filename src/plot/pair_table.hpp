@@ -16,14 +16,14 @@
 namespace stipple::plot {
 
 struct PairTable {
-    std::string key = {};     ///< of its list in the report
-    std::string source = {};  ///< of the points
+    std::string key = {};     ///< key of the table's list in the report
+    std::string source = {};  ///< source of the points
     std::string title = {};
     std::string subtitle = {};
     std::size_t dimension = 0;
     std::vector<double> values = {};
 
-    /// Number of the pair of coordinates i < j, from 0.
+    /// The number for the pair of coordinates i < j, where i and j count from 0.
     [[nodiscard]] double at(std::size_t i, std::size_t j) const {
         return values[j * (j - 1) / 2 + i];
     }
@@ -31,7 +31,7 @@ struct PairTable {
     [[nodiscard]] double largest() const;
 };
 
-/// The table of a report by its analyzer's record; nullopt if it has none.
+/// The table in a report, found by its analyzer's record; nullopt if the analyzer has none.
 std::optional<PairTable> pair_table(const Measurement& measurement);
 
 /// @param largest number at the upper end of the colours, which begin at 0

@@ -217,7 +217,7 @@ class PointMarks {
     const PointsPicture& picture_;
     const Theme& theme_;
     const RunContext& run_;
-    double share_ = share_of_box(*picture_.sets[0]);  ///< fraction of the frame with points
+    double share_ = share_of_box(*picture_.sets[0]);  ///< the domain's fraction of the frame
 };
 
 std::vector<LegendEntry> legend_of(const PointsPicture& picture, const Theme& theme) {
@@ -400,7 +400,7 @@ struct EdgeTexts {
         }
     }
 
-    /// Width of the wider number at the ends.
+    /// Width of the wider one of the numbers at the ends of coordinate k.
     [[nodiscard]] double wide(std::size_t k) const {
         return std::max(text_width(ends[k].first, number_size),
                         text_width(ends[k].second, number_size));
@@ -409,7 +409,7 @@ struct EdgeTexts {
     [[nodiscard]] double more_rows(std::size_t k) const {
         return name_row * (static_cast<double>(names[k].size()) - 1);
     }
-    /// Distance from the vertical edge to its name, with the numbers between them.
+    /// Distance from the vertical edge to its name; the numbers are between them.
     [[nodiscard]] double aside() const { return std::max(36.0, 22 + wide(2)); }
 
     /// Space needed for texts on each side of the box.
@@ -661,15 +661,15 @@ std::vector<double> coordinate(const PointSet& set, std::size_t k) {
     return values;
 }
 
-/// Number of histogram bins for n values. In proportion to the cube root of n, it minimizes the
+/// Number of histogram bins for n values: proportional to the cube root of n, which minimizes the
 /// error for smooth densities.
 std::size_t bins_of(std::size_t n) {
     return std::clamp<std::size_t>(
         static_cast<std::size_t>(std::ceil(2 * std::cbrt(static_cast<double>(n)))), 5, 200);
 }
 
-/// Whether a coordinate has whole numbers as outcomes: all are whole, and they follow no density
-/// that would be uniform in the cube.
+/// Whether a coordinate has whole numbers as outcomes: all are whole, and the domain is unknown or
+/// its cube coordinates do not preserve probability.
 bool is_whole(const PointsPicture& picture, std::size_t k) {
     const PointSet& first = *picture.sets[0];
     if (first.domain->even() && !without_domain(first)) return false;

@@ -23,7 +23,7 @@
 namespace stipple::plot {
 
 inline constexpr std::size_t most_pair_coordinates = 8;
-inline constexpr double density_share = 0.75;  ///< least points per square unit for a density
+inline constexpr double density_share = 0.75;  ///< minimum of points per square unit for a density
 
 /// Limit for the ratio of a box's sides. Beyond it, coordinates are assumed to have different units
 /// and are scaled separately.
@@ -39,18 +39,18 @@ struct MarkedBox {
     std::string label = {};  ///< description
     std::vector<double> low = {};
     std::vector<double> high = {};
-    bool closed = true;  ///< drawn with a solid line; false: dashed
+    bool closed = true;  ///< whether drawn with a solid line; false: dashed
 };
 
 /// A circle drawn over plane points.
 struct MarkedCircle {
     Position centre;
     double radius = 0;
-    bool torus = false;  ///< continues across opposite sides of the first set's domain
+    bool torus = false;  ///< whether it continues across opposite sides of the first set's domain
 };
 
 struct PointsPicture {
-    std::vector<const PointSet*> sets;  ///< of one dimension; all non-empty, at least one
+    std::vector<const PointSet*> sets;  ///< of one dimension, none empty; at least one set
     std::vector<std::string> names;     ///< names of the sets, for the legend
     std::string title = {};
     std::string subtitle = {};
@@ -59,10 +59,10 @@ struct PointsPicture {
     std::vector<MarkedCircle> circles = {};
     std::vector<std::pair<Position, Position>> lines = {};  ///< drawn thinly over plane points
     bool cells = false;  ///< draws the Voronoi cells of a single plane set, in its domain's box
-    bool pairs = false;  ///< draws three coordinates as pairs
+    bool pairs = false;  ///< whether three coordinates are drawn as pairs
     /// Whether each coordinate has a logarithmic axis; empty: none has.
     std::vector<bool> log = {};
-    std::vector<std::string> units = {};  ///< unit of each coordinate, or empty; may be empty
+    std::vector<std::string> units = {};  ///< unit of each coordinate, or ""; may be empty
     std::size_t most_disks = 20'000;      ///< limit beyond which pixels replace disks
     std::size_t most_coordinates = most_pair_coordinates;  ///< limit for coordinates drawn in pairs
 };
@@ -77,13 +77,14 @@ std::vector<std::vector<Position>> outline_of(const Domain& domain);
 /// @throws Error(input) if the range is too wide for an axis
 Box shown_box(std::span<const PointSet* const> sets);
 
-/// Whether all numbers of a coordinate that a picture shows are positive.
+/// Whether all values of a coordinate that a picture shows are positive.
 bool is_positive(std::span<const PointSet* const> sets, std::size_t k);
 
 /// Names of the coordinates, with units, and notes on ranges too narrow to be shown.
 std::vector<std::string> shown_names(const PointsPicture& picture);
 
-/// Texts for both ends of a coordinate: numbers, or the first and last level of a categorical one.
+/// Texts for both ends of a coordinate: numbers, or the first and last level of a categorical
+/// coordinate.
 std::pair<std::string, std::string> shown_ends(const PointsPicture& picture, const Box& box,
                                                std::size_t k);
 

@@ -37,8 +37,7 @@ std::string name_of_input(const Measurement& m, bool whole_path = false) {
     return name;
 }
 
-/// Distinct names for the inputs: file names without folders if they suffice; otherwise whole
-/// paths.
+/// Distinct names for the inputs: file names without folders if they suffice, else whole paths.
 std::vector<std::string> names_of_inputs(Measurements ms) {
     std::vector<std::string> names;
     for (const Measurement& m : ms) names.push_back(name_of_input(m));
@@ -50,7 +49,7 @@ std::vector<std::string> names_of_inputs(Measurements ms) {
     return names;
 }
 
-/// Whether a property has the same value for all measurements.
+/// Whether a property, a member or a function, has the same value for all measurements.
 template <class Property>
 bool alike(Measurements ms, const Property& property) {
     return std::ranges::all_of(ms, [&](const Measurement& m) {
@@ -69,8 +68,7 @@ std::string beside(const CurveKey& curve, std::string_view name) {
     return std::string(curve.key.substr(0, curve.key.rfind('.') + 1)).append(name);
 }
 
-/// Sets the band of a series: its standard error if known, or lower and upper bounds from the
-/// report.
+/// Sets the band of a series: its standard error if known, or the report's lower and upper bounds.
 void add_band(Series& series, const Measurement& m, const CurveKey& curve) {
     if (m.standard_error) {
         const auto error = list_at(*m.standard_error, curve.key);
@@ -150,9 +148,9 @@ std::vector<Series> noise_band(Measurements ms, const CurveKey& curve) {
     return {band};
 }
 
-/// The anisotropy of independent points in dB: -10 log10 of the number of averaged sets, for pair
-/// differences times the expected number of pairs per pixel. Empty if it differs between the
-/// measurements.
+/// The anisotropy of independent points in dB: -10 log10 s for s averaged sets; for pair
+/// differences s is multiplied by the expected number of pairs per pixel. Empty if it differs
+/// between the measurements.
 std::vector<Guide> noise_anisotropy(Measurements ms) {
     const auto expected_of = [](const Measurement& m) {
         const double pairs = number_at(m.results, "expected_differences").value_or(1);
@@ -194,7 +192,7 @@ std::string summary_of_spectrum(Measurements ms) {
     return text;
 }
 
-/// Key numbers of a spectrum, its window and its weights.
+/// Main results of a spectrum, with its window and its weights.
 std::string notes_of_spectrum(Measurements ms) {
     std::string notes = summary_of_spectrum(ms);
     if (const std::string window = option_of(ms[0].options, "window");
@@ -245,7 +243,7 @@ bool has(const Report& results, const CurveKey& curve, std::string_view name) {
     return other && other->size() == list_at(results, curve.over)->size();
 }
 
-/// Whether a curve is a bound of another one.
+/// Whether a curve is a bound of another curve.
 bool is_bound(const CurveKey& curve, const Report& results) {
     const auto name = last_part(curve.key);
     return (name == "lower" || name == "upper") && has(results, curve, "value");
@@ -305,7 +303,7 @@ void make_power(ChartPanel& panel, Measurements ms, const CurveKey& curve) {
 }
 
 /// Sets up the panel of pair correlation. A single measurement gets a band of two standard
-/// deviations, those of the mean over as many sets of uniform points.
+/// deviations, namely of the mean over as many sets of uniform points.
 void make_pair_correlation(ChartPanel& panel, Measurements ms, const CurveKey& curve) {
     panel.y_name = "pair correlation g";
     panel.guides = {{.name = ms.size() > 1 ? "uniform points" : "", .y = {1}}};
@@ -383,8 +381,7 @@ std::optional<Chart> curves_chart(Measurements ms, const std::string& key) {
 
 // ---------------------------------------------------------------- indices with intervals
 
-/// Adds the numbers of a group as bars with their intervals to the panel of the same kind, or to a
-/// new one.
+/// Adds a group's numbers as bars with intervals to the panel of the same kind, or to a new one.
 void add_bars(std::vector<ChartPanel>& panels, const std::string& output, const std::string& label,
               const Report& group, const std::string& kind) {
     ChartPanel* panel = nullptr;
@@ -412,8 +409,8 @@ void add_bars(std::vector<ChartPanel>& panels, const std::string& output, const 
     }
 }
 
-/// Keeps the 16 categories in which the last series is largest, in their order, and names their
-/// number on the x axis.
+/// Keeps the 16 categories in which the last series is largest, in their order, and adds the number
+/// of all categories to the x axis.
 void keep_largest(ChartPanel& panel) {
     constexpr std::size_t most = 16;
     const std::size_t all = panel.categories.size();
@@ -469,7 +466,7 @@ Chart indices_chart(Measurements ms, const std::string& key) {
 
 // ---------------------------------------------------------------- one number over many reports
 
-/// Key of the number that represents a report: "value", or its first number.
+/// Key of the result that represents a report: "value", or the first number.
 std::string main_number(const Report& report) {
     if (number_at(report, "value")) return "value";
     for (const std::string& key : report.keys())
@@ -508,8 +505,7 @@ std::string family_of(const Measurement& m) {
     return family;
 }
 
-/// One value for each set size: the mean with its standard error, or the root mean square if
-/// `errors`.
+/// One value per set size: the mean with its standard error, or the root mean square if `errors`.
 Series series_over_count(const std::string& name, bool errors,
                          const std::map<std::uint64_t, std::vector<double>>& at) {
     Series series{.name = name, .marks = true};

@@ -40,8 +40,8 @@ bool is_symmetric(std::span<const double> v) {
 
 bool is_spectrum(std::span<const double> v) { return is_symmetric(v) && is_power(v); }
 
-/// Concatenates square planes that form a cube; empty if their number differs from their rows or
-/// columns.
+/// Concatenates square planes that form a cube; empty unless there are as many planes as each has
+/// rows and columns.
 std::vector<double> cube_of(std::span<const PointSet* const> sets) {
     std::vector<double> values;
     for (const PointSet* plane : sets) {

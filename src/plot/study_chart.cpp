@@ -26,8 +26,8 @@ struct Topic {
 
 Topic topic_of(const MeanRow& row) { return {row.measure, row.key, row.dimension}; }
 
-/// Whether a result is an error by its key, or because some mean is negative: then its distance
-/// from 0 matters.
+/// Whether a result is an error by its key, or some mean is negative: then its distance from 0
+/// matters.
 bool is_error(const Topic& topic, std::span<const MeanRow> means) {
     if (is_error_key(topic.key)) return true;
     return std::ranges::any_of(
@@ -89,8 +89,8 @@ std::string name_of(const Topic& topic, std::span<const Topic> all) {
     return name;
 }
 
-/// The topics whose key is `key` or, without any, has it as a part. Without a key: those called
-/// "value", then those of measures without a value.
+/// The topics whose key is `key`; if there are none, those whose key has it as a part. Without a
+/// key: topics called "value", then topics of measures without a value.
 std::vector<Topic> topics_of(std::span<const MeanRow> means, const std::string& key) {
     const bool whole = std::ranges::count(means, key, &MeanRow::key) > 0;
     const auto is_value = [](const Topic& topic) { return last_part(topic.key) == "value"; };

@@ -27,7 +27,7 @@ std::size_t inner(std::size_t room, std::size_t taken, std::size_t least) {
     return room > taken + least ? room - taken : least;
 }
 
-/// Columns of the field, beside the frame and the numbers.
+/// Number of columns that frame and numbers leave for the field.
 std::size_t columns_for(const TextRoom& room, const TextFrame& frame) {
     const std::size_t numbers =
         std::max(code_points(frame.low_y).size(), code_points(frame.high_y).size());
@@ -75,7 +75,7 @@ std::string plane_as_text(const PointsPicture& picture, const TextRoom& room, st
 }
 
 std::string pairs_as_text(const PointsPicture& picture, const TextRoom& room) {
-    constexpr std::size_t least = 24;  // columns for a pair
+    constexpr std::size_t least = 24;  // minimum number of columns for a pair
     const std::size_t d = picture.sets[0]->dimension();
     const std::size_t shown = std::min(d, std::max<std::size_t>(3, 1 + room.columns / least));
     TextRoom part = room;
@@ -109,7 +109,7 @@ std::string space_as_text(const PointsPicture& picture, const TextRoom& room) {
                          .coloured = room.coloured});
 }
 
-/// Draws bars. @param base relative height at which the bars start
+/// Draws bars. @param base relative height, 0 to 1, at which the bars start
 void draw_bars(DotMatrix& dots, const Bars& bars, const Axis& x, const Axis& y, double base = 0) {
     for (std::size_t i = 0; i < bars.heights.size(); ++i) {
         const double top = std::min(y.share(bars.heights[i]), 1.0);
@@ -199,8 +199,8 @@ std::pair<std::string, std::string> ends_upward(const Chart& chart, std::size_t 
     return rounded_ends(y.low, y.high, 3);
 }
 
-/// One panel in its frame; only the last panel has numbers along x.
-/// @param side width of the numbers beside all panels
+/// One panel in its frame; numbers along x only at the last panel, unless each has its own.
+/// @param side width of the numbers to the left of all panels
 std::string panel_as_text(const Chart& chart, std::size_t number, const PictureStyle& style,
                           std::size_t side, const TextRoom& room) {
     const auto [x, y] = chart_axes(chart, number, style);
@@ -266,7 +266,7 @@ std::string points_as_text(const PointsPicture& picture, const TextRoom& room) {
 }
 
 TextRoom shared_room(const TextRoom& room, std::size_t pictures) {
-    constexpr std::size_t least = 32;  // columns for a picture
+    constexpr std::size_t least = 32;  // minimum number of columns for a picture
     TextRoom part = room;
     const std::size_t beside =
         std::clamp<std::size_t>(room.columns / least, 1, std::max<std::size_t>(pictures, 1));

@@ -15,8 +15,8 @@
 
 namespace stipple::plot {
 
-/// Available characters, at least 1 in each direction. Pictures that need more exceed them. The rows
-/// include one for a title, which the caller writes.
+/// Available characters, at least 1 in each direction. Pictures that need more exceed them. The
+/// rows include one for the title, written by the caller.
 struct TextRoom {
     std::size_t columns = 80;
     std::size_t rows = 24;
@@ -40,10 +40,10 @@ std::string spectrum_as_text(const Grid& power, const TextRoom& room);
 std::string local_discrepancy_as_text(const PointSet& points, const WorstBoxes& worst,
                                       double largest, const TextRoom& room, const RunContext& run);
 
-/// Numbers of pairs of coordinates in five shades up to `largest`.
+/// One number for each pair of coordinates, in five shades up to `largest`.
 std::string pair_table_as_text(const PairTable& table, double largest);
 
-/// Characters for each of several pictures side by side, in as many columns as fit.
+/// Room for each of several pictures that are placed side by side, as many as fit in a row.
 TextRoom shared_room(const TextRoom& room, std::size_t pictures);
 
 /// Joins pictures side by side; starts a new row where room.columns is exceeded.

@@ -100,11 +100,10 @@ struct PixelImage {
 /// Clips the following shapes to an area, up to the next ClipWindow.
 struct ClipWindow {
     Area area = {};
-    bool open = false;  ///< ends clipping
+    bool open = false;  ///< true: ends clipping
 };
 
-/// Puts the following shapes into a group of a page's SVG, up to the next SvgGroup; ignored in
-/// files.
+/// Puts the following shapes into a group of a page's SVG, up to the next SvgGroup; not in files.
 struct SvgGroup {
     std::string attributes;  ///< attributes of the group element, class="box star"; empty: no group
 };
@@ -141,11 +140,11 @@ using PictureNotes = std::vector<std::pair<std::string, std::string>>;
 /// An SVG 1.1 file; text remains text. One unit is `scale` pixels.
 std::string svg_bytes(const Drawing& drawing, double scale, const PictureNotes& notes = {});
 
-/// An SVG element for a page: the first drawing's colours on light pages, the second one's on dark
-/// pages. Both must have the same shapes. `label` describes it to screen readers.
+/// An SVG element for a page: the first drawing's colours on light pages, the second drawing's on
+/// dark pages. Both must have the same shapes. `label` describes it to screen readers.
 std::string svg_element(const Drawing& light, const Drawing& dark, const std::string& label);
 
-/// A number rounded to hundredths of a unit, which is finer than visible.
+/// A number of units rounded to hundredths, which are finer than visible.
 std::string short_number(double x);
 
 /// One page of PDF 1.4 with embedded fonts; one unit is `scale` times 3/4 of a point.

@@ -32,18 +32,17 @@ std::vector<std::vector<Position>> strokes_of(char32_t letter);
 /// Width of a line of text at this font size.
 double text_width(std::string_view text, double size);
 
-/// Space that a label may take, in fonts that are as wide as DejaVu Sans, by which viewers of SVG
-/// replace Helvetica.
+/// Space that a label takes in DejaVu Sans, a wide font by which viewers of SVG replace Helvetica.
 Area room_of(const Label& label);
 
 /// Wraps text to lines of at most this width, also in wider fonts, after blanks and signs such as -
-/// and /, not within decimal numbers; longer words are broken anywhere or, if `shorten`, end with an
-/// ellipsis.
+/// and /, not within decimal numbers. Longer words are broken anywhere or, if `shorten`, end with
+/// an ellipsis.
 std::vector<std::string> wrapped(std::string_view text, double size, double width,
                                  bool bold = false, bool shorten = false);
 
-/// Adds a label with several lines, the last of them at the label's position; the others are above
-/// or, if upward, to the left.
+/// Adds a label with several lines, the last of them at the label's position; the other lines are
+/// above or, if upward, to the left.
 void add_lines(Drawing& drawing, const Label& label, const std::vector<std::string>& lines,
                double leading);
 

@@ -42,7 +42,7 @@ void add_text(Drawing& drawing, const Label& label) {
 }
 
 /// Position of the middle of a number's text, in units from the axis's start. The text may extend
-/// slightly beyond the ends, unless another frame is next to it.
+/// slightly beyond the ends, unless another frame is next to the axis.
 double middle_of(const Axis& axis, const Tick& tick, double length) {
     constexpr double beyond = 20;  // units; less than the margins of pictures
     const double at = axis.share(tick.value) * length;

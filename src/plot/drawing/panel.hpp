@@ -21,12 +21,12 @@ struct Axis {
     double high = 1;
     bool log = false;
     bool binary = false;                  ///< logarithmic, with numbers at powers of two
-    bool whole = false;                   ///< only integers as numbers
+    bool whole = false;                   ///< whether numbers are only at integers
     std::vector<std::string> words = {};  ///< texts of the numbers first_word, first_word + 1, ...
     double first_word = 1;
     std::string name = {};  ///< empty: no name
     bool numbers = true;    ///< false: only tick marks, since another panel has the numbers
-    bool tight = false;     ///< keeps numbers within the frame, for frames side by side
+    bool tight = false;     ///< keeps texts of numbers within the frame, for frames side by side
 
     /// Ticks that fit into this length. `upright`: the axis is vertical, with numbers one above the
     /// other.
@@ -57,7 +57,7 @@ class Panel {
     /// Draws the frame with numbers and names; if `closed`, on all four sides.
     void draw_axes(Drawing& drawing, const Theme& theme, bool closed) const;
 
-    /// Space for numbers and name beside a frame of this height, and below one of this width.
+    /// Space for numbers and name beside a frame of this height, or below a frame of this width.
     static double room_left(const Axis& y, double height);
     static double room_below(const Axis& x, double width);
 

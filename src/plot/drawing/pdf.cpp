@@ -164,7 +164,7 @@ std::string font_of(const std::vector<Table>& tables) {
     const int count = static_cast<int>(tables.size());
     std::string out;
     put_number(out, 0x00010000, 4);
-    put_words(out, {count, 64, 2, 16 * count - 64});  // correct for 4 to 7 tables
+    put_words(out, {count, 64, 2, 16 * count - 64});  // search range, right for 4 to 7 tables
     auto offset = static_cast<std::int64_t>(12 + 16 * tables.size());
     for (const auto& [name, bytes] : tables) {
         out += name;
@@ -289,7 +289,7 @@ std::string unicode_map(const std::u32string& letters) {
     return map + "endcmap CMapName currentdict/CMap defineresource pop end end";
 }
 
-/// Appends the objects of a font; returns the number of the first one, by which the page refers to
+/// Appends the objects of a font; returns the first object's number, by which the page refers to
 /// the font.
 std::size_t add_font(std::vector<std::string>& objects, const std::u32string& letters, bool bold) {
     const std::size_t number = objects.size() + 1;

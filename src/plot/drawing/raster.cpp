@@ -5,7 +5,7 @@
 //     lines and disks   w / 2 + 1/2 - distance of the pixel's centre, clamped to [0, 1],
 //     patches           the mean over four rows in the pixel, each exact along x,
 //
-// and colours are blended by that fraction.
+// where w is the width or diameter in pixels. Colours are blended by this fraction.
 #include <algorithm>
 #include <cmath>
 
@@ -283,7 +283,7 @@ class Rasterizer {
     /// one pixel.
     static Colour mean_colour(const PixelImage& raster, double x, double y, double step_x,
                               double step_y) {
-        // If an image pixel is larger than the step, takes the one at the middle of the step.
+        // If an image pixel is larger than the step, takes the pixel at the middle of the step.
         const auto range = [](double from, double step, std::size_t size) {
             const double first = step <= 1 ? from + step / 2 : from;
             const double last = step <= 1 ? first : from + step - 1e-9;

@@ -88,7 +88,7 @@ class Writer {
     }
 
     /// Embeds only the light drawing's pixels. If the dark drawing's pixels differ, the page's
-    /// style sheet inverts the light ones on dark pages.
+    /// style sheet inverts the light pixels on dark pages.
     void operator()(const PixelImage& raster, const PixelImage& dark) {
         const Area& a = raster.area;
         const bool grey = std::ranges::all_of(

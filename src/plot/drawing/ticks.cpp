@@ -64,14 +64,14 @@ struct Numbered {
 };
 
 /// Selects at most `most` of the integers first..last, but at least two if possible: multiples of a
-/// stride if two of these exist, otherwise `first` and every stride from it.
+/// stride if there are two such multiples, otherwise `first` and every stride from it.
 Numbered spread(double first, double last, std::size_t most) {
     const double stride = std::floor((last - first) / static_cast<double>(most)) + 1;
     const double from = std::ceil(first / stride) * stride;
     return {from + stride <= last ? from : first, stride};
 }
 
-/// Adds ticks at powers of ten. If there are more than `most`, only every second, third, ... has a
+/// Adds ticks at powers of ten; if there are more than `most`, only every 2nd, 3rd, ... has a
 /// number.
 void add_decades(double low, double high, std::size_t most, Ticks& ticks) {
     const int first = static_cast<int>(std::ceil(std::log10(low) - 1e-9));
@@ -94,7 +94,7 @@ void add_decades(double low, double high, std::size_t most, Ticks& ticks) {
         }
 }
 
-/// Replaces the ticks by ones at digits times powers of ten, for ranges with few powers of ten.
+/// Replaces the ticks by digits times powers of ten, for ranges with few powers of ten.
 void add_digits(double low, double high, std::size_t most, Ticks& ticks) {
     ticks.minor.clear();
     const auto digits =

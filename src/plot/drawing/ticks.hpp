@@ -39,7 +39,7 @@ struct Ticks {
 /// integers, even if there is only one. Empty if an axis cannot distinguish low from high.
 Ticks linear_ticks(double low, double high, std::size_t most, bool whole = false);
 
-/// As linear_ticks(), for a logarithmic axis with 0 < low < high.
+/// Like linear_ticks(), for a logarithmic axis with 0 < low < high.
 Ticks log_ticks(double low, double high, std::size_t most);
 
 /// Ticks at powers of two in [low, high], 0 < low < high; at most `most` have numbers.
