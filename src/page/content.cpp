@@ -29,7 +29,7 @@ std::string probability(double p) {
     return p < least_probability ? "p < 1e-16" : fmt::format("p = {}", rounded(p, 2));
 }
 
-/// Statistic of a test: one number, or one for each axis.
+/// Statistic of a test in words: of the whole test, or of the axis with the largest statistic.
 std::string numbers_of_test(const Report& found) {
     if (const auto statistic = number_at(found, "statistic"))
         return fmt::format("χ² = {} with {} degrees of freedom, {}", rounded(*statistic),

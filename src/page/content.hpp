@@ -17,9 +17,9 @@
 
 namespace stipple::page {
 
-inline constexpr std::size_t most_sets = 12;  ///< one per colour
+inline constexpr std::size_t most_sets = 12;  ///< one for each colour of a set
 
-/// One measure of a set: its results, or the reason why it has none.
+/// One measure of a set: its results, or the reason why there are none.
 struct Measure {
     std::string name;   ///< first part of its keys: "star-discrepancy", "extreme-discrepancy"
     std::string title;  ///< displayed name
@@ -32,11 +32,11 @@ struct Measure {
 
 /// A set with everything that the page shows of it.
 struct Set {
-    std::string name;  ///< unique on the page
+    std::string name;  ///< name, unique on the page
     std::string source;
     std::optional<std::size_t> number = {};  ///< index in its file, if that has several sets
     std::uint64_t count = 0;
-    std::uint64_t left_out = 0;  ///< rows of its file with missing numbers
+    std::uint64_t left_out = 0;  ///< rows of its file that were left out for missing numbers
     std::size_t dimension = 0;
     std::string domain = {};
     std::optional<std::uint64_t> fingerprint = {};  ///< fingerprint of the coordinates
@@ -81,14 +81,14 @@ std::span<const Planned> planned_measures();
 /// The measure with this name; nullptr if there is none.
 const Planned* planned(std::string_view measure);
 
-/// A number in the comparison; `key` is MEASURE.RESULT. Errors are compared by magnitude: over
+/// A number in the comparison; `key` is MEASURE.RESULT. Errors are compared by magnitude; over
 /// several sets, by the root mean square.
 struct Key {
     std::string key;
     std::string_view label;
     std::string_view group;
     Better better = Better::lower;
-    bool any_count = false;  ///< comparable between sets of different n
+    bool any_count = false;  ///< whether sets of different n can be compared
 };
 
 /// All compared numbers, in the order of the table.
@@ -97,7 +97,7 @@ std::span<const Key> compared_keys();
 /// Verdict of a test, such as "uniform"; empty if the results have none.
 std::string verdict_of(const Report& results);
 
-/// A number: exact, between bounds, or a mean with its error.
+/// A number: exact, between bounds, or a mean with its standard error.
 struct Known {
     double value = 0;
     double lower = 0;
@@ -114,15 +114,15 @@ struct Known {
 struct Row {
     Key key;
     std::vector<std::optional<Known>> values = {};  ///< one per set
-    std::vector<bool> best = {};  ///< no other set can be better; several sets may tie
+    std::vector<bool> best = {};  ///< whether no other set can be better; several sets may tie
 };
 
 /// The number under a key of a set's results, with its bounds if it is not exact; if the set has
 /// replications, the mean over all sets.
 std::optional<Known> known_under(const Set& set, const Key& key);
 
-/// Marks the numbers that no other can be better than; overlapping bounds tie. Nothing is marked if
-/// there is only one number, or if all are the same.
+/// Marks each number that is certainly no worse than any other; overlapping bounds decide nothing.
+/// Nothing is marked if there is only one number, or if all are the same.
 std::vector<bool> best_of(std::span<const std::optional<Known>> values, Better better);
 
 /// Rows of the comparison for which at least one set has a number.
@@ -131,9 +131,9 @@ std::vector<Row> compare_sets(std::span<const Set> sets);
 /// The result of a uniformity test as a sentence; empty for other measures.
 std::string verdict_in_words(const Measure& measure);
 
-/// A number as shown in tables; tiny p-values become "< 1e-16".
+/// A number as shown in tables; p-values below 1e-16 become "< 1e-16".
 std::string shown_number(double value, std::string_view key = {});
-/// Likewise with bounds or standard error, unless exact: "0.036 to 0.159", "0.1 ± 0.02".
+/// Like shown_number(), with bounds or standard error unless exact: "0.036 to 0.159", "0.1 ± 0.02".
 std::string shown_known(const Known& known, std::string_view key = {});
 
 }  // namespace stipple::page

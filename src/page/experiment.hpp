@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Named parameters on a page.
+// Named parameters on a report page.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ bool is_experiment(const std::string& domain);
 /// Whether each coordinate of points is a parameter on a log scale, or log-uniform.
 std::vector<bool> log_axes(const PointSet& points);
 
-/// The unit of each coordinate; empty if it is no parameter with a unit.
+/// The unit of each coordinate; empty if it is not a parameter with a unit.
 std::vector<std::string> units_of(const PointSet& points);
 
 /// Table of the parameters: names, units and possible values; followed by their constraints and

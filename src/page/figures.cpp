@@ -94,7 +94,7 @@ std::string boxes_figure(const char* kind, const std::string& drawing, const Set
     return figure(kind, drawing + box_legend(boxes, projections), caption + ".");
 }
 
-/// Smallest odd side of square blocks with at most `most` blocks in a row.
+/// Smallest odd side of square blocks of which at most `most` cover `rows` rows.
 std::size_t block_side(std::size_t rows, std::size_t most) {
     std::size_t block = 1;
     while ((rows + block - 1) / block > most) block += 2;
@@ -116,7 +116,7 @@ Json short_numbers(const std::vector<double>& values) {
     return list;
 }
 
-/// Data for the page's script, which shows values under the pointer.
+/// Data for the page's script, which shows the values of curves under the pointer.
 std::string numbers_of(std::span<const Set> sets, const Chart& chart, const Area& frame) {
     const ChartPanel& panel = chart.panels.front();
     const Axis x = chart_axes(chart, 0, {}).first;
@@ -203,7 +203,7 @@ std::vector<MarkedBox> worst_boxes(const Set& set) {
         const Report& found = *measure.results;
         const std::string kind = option_of(measure.options, "kind");
         if (const auto corner = list_at(found, "worst_box.corner")) {
-            // Measures of prefixes repeat the search in the whole set.
+            // Measures of prefixes repeat the search in the whole set, which another measure shows.
             if (std::ranges::find(boxes, kind, &MarkedBox::kind) != boxes.end()) continue;
             MarkedBox box{.kind = kind, .high = *corner};
             box.low = list_at(found, "worst_box.lower_corner")

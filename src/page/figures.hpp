@@ -41,8 +41,8 @@ std::string spectrum_figure(const Set& set);
 Grid in_blocks(const Grid& grid, std::size_t most);
 
 /// Charts of curves for the sets with these indices. Radial power has the 95 % band of white noise
-/// if that is the same for all. Pair correlation of a single set has a band of two standard
-/// deviations for independent points. Curves that no set has are omitted.
+/// if that band is the same for all sets. Pair correlation of a single set has a band of two
+/// standard deviations for independent points. Curves that no set has are omitted.
 std::string curve_figures(std::span<const Set> sets, std::span<const std::size_t> which);
 
 }  // namespace stipple::page

@@ -72,7 +72,7 @@ std::string facts_of(const Set& set) {
 
 // -------------------------------------------------------------------- comparison
 
-/// Identifies a domain for the page's script, which compares them.
+/// Identifies a domain for the page's script, which compares the domains of sets.
 std::string mark_of_domain(const std::string& spec) {
     return is_experiment(spec) ? "parameters " + format_fingerprint(fingerprint(spec)) : spec;
 }
@@ -132,7 +132,7 @@ std::string arrow_of(Better better) {
     return {};
 }
 
-/// Attributes from which the page's script marks the best of a row.
+/// Attributes from which the page's script marks the best number of a row.
 std::string rule_of(const Key& key) {
     if (key.better == Better::neither) return {};
     return fmt::format(" data-better=\"{}\"{}", word_of(key.better),

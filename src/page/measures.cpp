@@ -33,7 +33,7 @@ void need_few_pairs(const Planned& plan, const PointSet& points, std::int64_t wo
 }
 
 /// Work limit of a search for a worst box, in comparisons. For many points, searches with
-/// non-default options end with their initial bounds anyway, so they get less.
+/// non-default options get less work, since they end with their initial bounds anyway.
 std::int64_t work_for(const Planned& plan, std::size_t count, std::int64_t work) {
     constexpr std::size_t many = 50'000;
     const bool usual = std::ranges::all_of(
@@ -108,7 +108,7 @@ Measure measured(const Planned& plan, const PointSet& points, const Cubed& cube,
     measure.command += input.remark;
     if (input.words.empty()) measure.command.clear();
     const std::string domain = shown->domain->spec();
-    // The measure uses distances between points.
+    // Measures with an option --metric use distances between points.
     const bool distances = values.try_find("metric") != nullptr;
     if (distances && points.dimension() > 1 && is_experiment(domain)) {
         measure.left_out =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Measures of a report page: which analyzers it applies to every set, and with how much work.
+// Measures of a report page: the analyzers that are applied to every set, and their work limits.
 //
 // Promise  results depend only on the points and the work limit: long searches end after a number
 //          of comparisons, not by time.
@@ -24,7 +24,7 @@ struct Input {
     /// Points as arguments: "points.csv --domain disk", "--generate halton -n 64"; empty if no
     /// command can read them.
     std::string words;
-    bool bounds = false;  ///< --bounds can be appended
+    bool bounds = false;  ///< whether --bounds can be appended
     /// Appended to commands: " # the third of its results"; usually empty
     std::string remark = {};
 };
