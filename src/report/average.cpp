@@ -13,7 +13,7 @@ namespace {
 using Curve = Report::Curve;
 using Item = Report::Item;
 
-/// The numbers of an item; nullopt for texts, flags and groups.
+/// The numbers in an item; nullopt for texts, flags and groups.
 std::optional<Curve> numbers(const Item& item) {
     if (const auto* whole = std::get_if<std::int64_t>(&item))
         return Curve{static_cast<double>(*whole)};
@@ -25,7 +25,7 @@ std::optional<Curve> numbers(const Item& item) {
     return std::nullopt;
 }
 
-/// Numbers in the form of `like`: a number, a curve or a grid.
+/// Numbers as an item of the same type as `like`: a number, a curve or a grid.
 Item shaped(Curve values, const Item& like) {
     if (const auto* grid = std::get_if<Grid>(&like))
         return Grid{grid->rows, grid->columns, std::move(values)};
@@ -34,7 +34,7 @@ Item shaped(Curve values, const Item& like) {
     return values.front();
 }
 
-/// Merges one report's entry into the running means. Returns false if the entry must be dropped.
+/// Merges one report's entry into the running means. Returns false if the entry must be omitted.
 bool merge(Item& mean, Item& squares, const Item& item, double k);
 
 void merge_groups(Report& mean, Report& squares, const Report& report, double k) {

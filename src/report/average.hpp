@@ -25,10 +25,10 @@ class ReportAverage {
     [[nodiscard]] std::size_t count() const { return count_; }
     [[nodiscard]] const Report& mean() const { return mean_; }
 
-    /// Standard errors of the entries of `mean`, under the same names; `mean` is this mean after
-    /// the analyzer removed entries. Omits entries without a meaningful error: exact values,
-    /// probabilities, errors, and results derived from the mean, such as an anisotropy. Empty for
-    /// fewer than two reports.
+    /// Standard errors of the entries of `mean`, under the same names; `mean` is this mean, from
+    /// which the analyzer may have removed entries. Omits entries without a meaningful error: exact
+    /// values, probabilities, errors, and results derived from the mean, such as an anisotropy.
+    /// Empty for fewer than two reports.
     [[nodiscard]] Report standard_error(const Report& mean) const;
 
   private:
@@ -37,7 +37,7 @@ class ReportAverage {
     Report squares_;  ///< sums of squared deviations from the mean
 };
 
-/// A report's numbers, without words, flags, curves and grids.
+/// A report's single numbers, without texts, flags, curves and grids.
 Report numbers_only(const Report& report);
 
 }  // namespace stipple

@@ -36,7 +36,7 @@ std::shared_ptr<const Json> shared(Json json) {
     return std::make_shared<const Json>(std::move(json));
 }
 
-/// Fields that records of several kinds share, as far as Unit has them.
+/// Fields that records of several kinds share, if the type Unit has them.
 template <class Unit>
 UnitInfo base_info(const Unit& unit) {
     UnitInfo out{.name = unit.name, .summary = unit.summary, .source = unit.source};
@@ -121,7 +121,7 @@ Kind kind_of(std::string name, std::string verb, const std::vector<Unit>& units)
     return kind;
 }
 
-// Kinds that are made when a command needs them: to make all took a quarter of a short command's time.
+// Kinds, each made at first use: making all took a quarter of a short command's time.
 const Kind& generator_kind() {
     static const Kind kind = kind_of("generators", "generate", generators::all());
     return kind;

@@ -21,17 +21,17 @@ struct UnitInfo {
     std::string source;
     std::string family = {};           ///< such as "blue noise"; empty for formats
     std::string strata = {};           ///< for warps: how strata in the unit cube are mapped
-    std::uint64_t stream_version = 0;  ///< 0 for units that neither make nor move points
+    std::uint64_t stream_version = 0;  ///< 0 for units that neither generate nor move points
     std::vector<std::string> aliases = {};
     std::shared_ptr<const Json> traits = {};
-    std::vector<std::string> remarks = {};  ///< the traits in words
+    std::vector<std::string> remarks = {};  ///< the traits in words, for help
     std::span<const Option> options = {};
-    std::span<const ResultKey> results = {};  ///< for analyzers
+    std::span<const ResultKey> results = {};  ///< keys of results, for analyzers
 };
 
 struct Kind {
     std::string name;  ///< such as "generators"
-    std::string verb;  ///< verb that accepts such a unit, or empty
+    std::string verb;  ///< verb that accepts units of this kind, or empty
     std::vector<UnitInfo> units;
 };
 
@@ -41,7 +41,7 @@ const std::vector<Kind>& catalog();
 /// The kinds as JSON for `list --json`.
 Json json_of(const std::vector<Kind>& kinds);
 
-/// All units that a verb accepts, as one Kind with the name of the last kind among them; nullptr if
+/// All units that a verb accepts, as one Kind with the name of the last of their kinds; nullptr if
 /// the verb accepts none.
 const Kind* units_for(std::string_view verb);
 

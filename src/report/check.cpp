@@ -63,8 +63,7 @@ std::optional<Range> bounds_of(const Check& check, const Report& report) {
                  number_of(check, report, group + "upper" + index)};
 }
 
-/// The number to compare. For a `value` with bounds, the bound for which the condition is harder to
-/// meet.
+/// The number to compare. For a `value` with bounds, the bound that makes the condition harder.
 double bounded(const Check& check, const Report& report) {
     const bool known = report.find(check.key.substr(0, check.key.find('['))) != nullptr;
     const double found = known ? number_of(check, report, check.key) : 0;
@@ -86,7 +85,7 @@ std::string word_of(const Report& report, const std::string& key) {
     return {};
 }
 
-/// The operator meant by one from another language; empty if unknown.
+/// The operator that a user of another language means, such as == for ===; empty if unknown.
 std::string_view meant_by(std::string_view op) {
     constexpr std::array<std::pair<std::string_view, std::string_view>, 5> known = {
         {{"=", "=="}, {"===", "=="}, {"=<", "<="}, {"=>", ">="}, {"<>", "!="}}};

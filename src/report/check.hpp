@@ -18,7 +18,7 @@ struct Check {
     std::string option = "--check";  ///< option that gave it, for messages
 
     /// Whether the condition holds. @throws Error(usage) if the key does not exist, or if its
-    /// result is not a number but is compared with one
+    /// result is not a number but is compared with a number
     [[nodiscard]] bool holds(const Report& report) const;
 
     /// The value under the key, in words: "0.25", "false", "between 0.1 and 0.2".

@@ -4,8 +4,8 @@
 // curves, if they are longer than the number of coordinates, or if one of them holds integers.
 // Curves are columns with a row for each entry. All other lists (a corner, a grid's extents, a mean
 // for each axis) become separate columns KEY.0, KEY.1... Tables of different groups or lengths
-// follow each other, with empty cells in the rows of other tables, as after pandas.concat. Single
-// values are repeated on every row.
+// follow each other, with empty cells in the columns of other tables, as after pandas.concat.
+// Single values are repeated on every row.
 #include <fmt/format.h>
 
 #include <map>
@@ -40,12 +40,12 @@ std::string single_cell(const Report::Item& item) {
     return {};
 }
 
-using Cells = std::vector<std::pair<std::string, std::string>>;  // column, cell
+using Cells = std::vector<std::pair<std::string, std::string>>;  // pairs of column and cell
 
 /// Lists of equal length in one group of the results.
 struct Lists {
     std::size_t count = 0;
-    bool whole = false;            ///< true if one of the lists holds integers
+    bool whole = false;            ///< whether one of the lists holds integers
     std::vector<Cells> rows = {};  ///< cells of each entry, if the lists are curves
 };
 
@@ -110,9 +110,9 @@ class MeasurementCells {
     }
 
     std::size_t dimension_;
-    Cells single_;  ///< repeated on each row
+    Cells single_;  ///< cells that are repeated on each row
     std::map<std::pair<std::string, std::size_t>, Lists> lists_;
-    std::vector<const Lists*> tables_;  ///< in order of appearance
+    std::vector<const Lists*> tables_;  ///< tables in order of appearance
 };
 
 }  // namespace

@@ -145,7 +145,7 @@ std::string results_of(const Measurement& m, const TextStyle& style = {}) {
 
 constexpr const char* expected_json = "expected the JSON of 'stipple analyze'";
 
-/// A number or null.
+/// Whether a value is a number or null.
 bool is_number(const Json& value) { return value.is_number() || value.is_null(); }
 
 double number_of(const Json& value) {

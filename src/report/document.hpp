@@ -23,15 +23,15 @@ struct Measurement {
     std::string source;
     std::optional<std::size_t> set = {};  ///< number of the set, if its file has several
     std::size_t sets = 1;                 ///< number of sets that were averaged
-    std::uint64_t count = 0;              ///< points; for a mean over different sizes, the smallest
-    std::uint64_t largest_count = 0;      ///< largest size, for such a mean; else 0
+    std::uint64_t count = 0;  ///< number of points; for a mean over different sizes, the smallest
+    std::uint64_t largest_count = 0;  ///< for such a mean the largest number of points; else 0
     std::size_t dimension = 0;
     std::string domain;
     std::vector<std::string> columns = {};  ///< names of the coordinates; may be empty
     std::vector<std::pair<std::string, std::string>> options = {};
     Report results = {};
-    std::optional<Report> standard_error = {};  ///< set for a mean
-    std::optional<double> seconds = 0.0;        ///< empty: not to be printed
+    std::optional<Report> standard_error = {};  ///< only for a mean
+    std::optional<double> seconds = 0.0;        ///< run time; empty: not printed
 };
 
 /// The number under a key of a report; nullopt if there is none.
@@ -49,22 +49,22 @@ Json json_of(const Report& report);
 /// Options as a JSON object; numbers and flags keep their types.
 Json json_of(const std::vector<std::pair<std::string, std::string>>& options);
 
-/// An array of objects or, for one measurement and without `array`, one object; ends with a newline.
+/// An array of objects or, for one measurement without `array`, one object; ends with a newline.
 std::string to_json(std::span<const Measurement> measurements, bool array = false);
 
 struct TextStyle {
-    /// Shows long lists as tables below; lists of equal length in one group are side by side.
-    /// Otherwise lists are truncated with a note.
+    /// Whether to show long lists as tables below; lists of equal length in one group are side by
+    /// side. Otherwise lists are truncated with a note.
     bool full = false;
-    /// Text to insert below the line of a result, with its line ends; may be empty.
+    /// Returns text to insert below the line of a result, with line ends; may be empty.
     std::function<std::string(const Measurement&, const std::string& key)> below = {};
 };
 
 /// Names, values and units in aligned columns.
 std::string to_text(std::span<const Measurement> measurements, const TextStyle& style = {});
 
-/// Whether the bytes look like JSON of reports: they begin with an object, or an array of objects,
-/// that names the format.
+/// Whether the bytes look like JSON of reports: an object that names the format, or an array of
+/// such objects.
 bool looks_like_reports(std::string_view bytes);
 
 /// Parses the output of to_json(): one report, an array of reports, or several such texts in

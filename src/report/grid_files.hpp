@@ -16,9 +16,9 @@ std::string npy_bytes(const Grid& power);
 
 /// Style of a picture of a power spectrum or of pair differences.
 struct PowerPicture {
-    std::string scale = "ratio";  ///< or "linear", "log"
-    int bits = 8;                 ///< or 16
-    std::int64_t slice = 0;       ///< plane of a cube to draw: its frequency f_2
+    std::string scale = "ratio";  ///< scale of grey: ratio, linear or log
+    int bits = 8;                 ///< bits per pixel: 8 or 16
+    std::int64_t slice = 0;       ///< plane of a cube to draw, by its frequency f_2
     double differences = 0;       ///< range in mean distances; 0: the picture is a spectrum
 };
 
@@ -29,9 +29,9 @@ struct PowerPicture {
 ///     linear  P / 2, no more than 1
 ///     log     (10 log10 P + 20) / 40, from -20 dB to 20 dB
 ///
-/// White noise (P = 1) is medium grey on every scale; frequencies that a set lacks are darker,
-/// those that it repeats lighter, and the peaks of a lattice white. The centre, frequency zero, is
-/// black. A text chunk in the file names the scale.
+/// White noise (P = 1) is medium grey on every scale; frequencies with less power are darker, those
+/// with more lighter, and the peaks of a lattice white. The centre, frequency zero, is black. A
+/// text chunk in the file names the scale.
 /// @throws Error(limit) if the picture is too large for PNG; Error(usage) for a slice out of range
 std::string png_bytes(const Grid& power, const PowerPicture& picture = {});
 

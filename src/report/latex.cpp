@@ -39,7 +39,7 @@ std::string escaped(char c) {
     }
 }
 
-/// Exponent of the first digit.
+/// Decimal exponent of the first digit.
 int exponent_of(double x) { return static_cast<int>(std::floor(std::log10(std::abs(x)))); }
 
 }  // namespace
@@ -112,7 +112,7 @@ std::map<std::string, double> numbers_in(const Report& report, std::vector<std::
 /// in the row y.x, and mean[0] in the row [0].
 struct Position {
     std::string group = {};
-    std::string entry = {};  ///< "[0]", or empty
+    std::string entry = {};  ///< index in a list, such as "[0]"; or empty
     std::string column = {};
 
     explicit Position(const std::string& key, bool whole) : column(key) {
@@ -129,13 +129,13 @@ struct Position {
     [[nodiscard]] std::string row() const {
         return group.substr(0, std::max<std::size_t>(group.size(), 1) - 1) + entry;
     }
-    /// Numbers of one kind share a table: as many parts of the group's name, in a list or not.
+    /// Kind: the depth of the group and whether in a list. Each kind of number has its own table.
     [[nodiscard]] std::pair<std::ptrdiff_t, bool> kind() const {
         return {std::ranges::count(group, '.'), !entry.empty()};
     }
 };
 
-/// Adds a row of a measurement for each of its rows in `positions`.
+/// Adds a row for each group and list entry in `positions` for which a measurement has numbers.
 void add_rows(LatexTable& table, const Measurement& m, std::span<const Position> positions,
               std::span<const std::string> columns) {
     std::vector<std::string> unused;
@@ -169,7 +169,7 @@ void add_rows(LatexTable& table, const Measurement& m, std::span<const Position>
 /// Tables of one analyzer's measurements: with a column for each number or, if these are too many,
 /// a table for each kind of numbers.
 std::string tables_of(std::span<const Measurement> all, const std::string& analyzer) {
-    constexpr std::size_t most = 6;  // numbers that fit beside each other
+    constexpr std::size_t most = 6;  // limit for numbers beside each other
     std::vector<std::string> keys;
     for (const Measurement& m : all)
         if (m.analyzer == analyzer) numbers_in(m.results, keys);

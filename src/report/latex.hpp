@@ -24,18 +24,18 @@ std::string latex_number(double value, double half_width);
 
 struct LatexTable {
     std::vector<std::string> comments = {};  ///< lines above the table, as plain text
-    std::vector<std::string> head = {};      ///< LaTeX, as all cells
+    std::vector<std::string> head = {};      ///< column heads; in LaTeX, like all cells
     std::vector<std::vector<std::string>> rows = {};
-    std::size_t words = 0;  ///< number of columns, at the left, that hold words
+    std::size_t words = 0;  ///< number of columns at the left that hold words
 
     /// A tabular environment.
     [[nodiscard]] std::string text() const;
 };
 
-/// A table for each analyzer, with a row for each measurement, and a column for each number and each
-/// entry of short lists. Analyzers with more than 6 of these have tables with a row for each group
-/// of numbers, such as a sensitivity's input, and each entry of lists. Means have their standard
-/// errors, and numbers with an interval its ends.
+/// A table for each analyzer, with a row for each measurement, and a column for each number and
+/// each entry of short lists. Analyzers with more than 6 of these have tables with a row for each
+/// group of numbers, such as an input of a sensitivity analysis, and each entry of lists. Means
+/// show their standard errors, and numbers with an interval its ends.
 std::string to_latex(std::span<const Measurement> measurements);
 
 }  // namespace stipple

@@ -18,7 +18,7 @@ enum class TableStyle { csv, jsonl };
 struct TableCell {
     std::string_view name;  ///< name of the column
     std::string text;
-    bool number = false;  ///< digits, "inf", "nan"; or empty if missing
+    bool number = false;  ///< whether the text is digits, "inf", "nan", or empty if missing
 };
 
 /// A CSV field, quoted if necessary.
@@ -27,8 +27,8 @@ std::string csv_field(std::string_view text);
 /// The header line; empty for JSON.
 std::string table_head(TableStyle style, std::span<const TableCell> cells);
 
-/// A row with its line end. JSON keeps the digits of numbers, uses null for missing ones and NaN,
-/// and "inf" as text.
+/// A row with its line end. JSON keeps the digits of numbers, writes missing numbers and NaN as
+/// null, and "inf" as text.
 std::string table_line(TableStyle style, std::span<const TableCell> cells);
 
 /// Parses a line without its line end; nullopt if it is not a complete row with these columns.

@@ -28,7 +28,7 @@ std::string typical_in_words(std::string_view analyzer, std::string_view key, Be
     return {};
 }
 
-/// Whether all flags and choices are those of the default.
+/// Whether all given flags and choices have their default values.
 bool has_default_choices(const Analyzer& analyzer, const GivenOptions& given) {
     return std::ranges::all_of(analyzer.options.options(), [&](const Option& option) {
         const auto it = std::ranges::find(given, option.name, &GivenOptions::value_type::first);

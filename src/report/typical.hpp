@@ -18,7 +18,7 @@ using GivenOptions = std::vector<std::pair<std::string, std::string>>;
 
 /// Sentences on a result: its description, and for the plane "lower is better; 1024 points in the
 /// plane: random 0.0392, jittered 0.0133, best 0.00386 (pmj02)", as far as known. Typical values
-/// are those of the default choices, such as the kind star.
+/// are given only for default options, such as the kind star.
 std::vector<std::string> meaning_of(const Analyzer& analyzer, std::string_view key,
                                     std::size_t dimension, const GivenOptions& given);
 
