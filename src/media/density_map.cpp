@@ -64,7 +64,7 @@ Cells cells_of_array(std::string_view bytes, const std::string& path, const RunC
 }
 
 /// Checks densities from a PFM or NPY file. Inverts them relative to their maximum, since these
-/// formats define no white.
+/// formats do not define white.
 Cells densities(Cells cells, const std::string& path, bool invert) {
     check_values(
         cells, path, [](double value) { return value >= 0 && std::isfinite(value); },
@@ -102,8 +102,8 @@ double fraction_before(std::span<const double> sums, std::size_t cell, double wa
     return std::min((wanted - before) / (sums[cell] - before), one_minus_ulp);
 }
 
-/// Buckets with fewer sums are searched in a fixed number of steps. Most have fewer; a higher limit
-/// would touch another cache line.
+/// Buckets with at most this number of sums are searched in a fixed number of steps. Most are; a
+/// higher limit would touch another cache line.
 constexpr std::size_t few_in_bucket = 4;
 
 /// Fraction of the total mass before a position in a cell.
@@ -205,7 +205,7 @@ std::array<double, 2> DensityMap::place(double u, double v) const {
         }
         if (i >= ahead && i - ahead < count) {
             const Visit& next = visits[(i - ahead) % ring];
-            // The bucket's sums and the one before may lie in two cache lines.
+            // The bucket's sums and the sum before them may be in two cache lines.
             const std::size_t sum = next.row * width_ + row_guides_[next.bucket];
             __builtin_prefetch(&row_sums_[std::max<std::size_t>(sum, 1) - 1]);
             __builtin_prefetch(&row_sums_[std::min(sum + 2, row_sums_.size() - 1)]);

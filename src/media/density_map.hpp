@@ -62,8 +62,8 @@ class DensityMap {
     /// with u.
     [[nodiscard]] std::array<double, 2> place(double u, double v) const;
 
-    /// Applies place() to all rows (u, v) of `cube`; faster, since it overlaps their memory
-    /// accesses.
+    /// Applies place() to all rows (u, v) of `cube`; faster, since it overlaps the memory accesses
+    /// of rows.
     void place_all(std::span<const double> cube, std::span<double> image) const;
 
     /// Inverse of place(), from the closed unit square into itself. A point of an empty cell maps
@@ -115,7 +115,7 @@ DensityMap read_density(const std::string& path, bool invert, const RunContext& 
 /// formats and for lengths that are not above 0
 PlaneValues read_lengths(const std::string& path, const RunContext& run);
 
-/// As read_density(), for a region: values other than 0 become 1 before scaling.
+/// Like read_density(), but for a region: values other than 0 become 1 before scaling.
 DensityMap read_mask(const std::string& path, bool invert, const RunContext& run);
 
 }  // namespace stipple

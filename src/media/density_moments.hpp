@@ -61,7 +61,7 @@ class DensityMoments {
     std::int64_t height_;
     Vec2 sides_;
     Vec2 size_;                  ///< size of a pixel
-    std::vector<Pixel> pixels_;  ///< rows of width + 1; the last entry is the row's total
+    std::vector<Pixel> pixels_;  ///< rows of width + 1 pixels; the last one of a row is its total
 };
 
 }  // namespace stipple

@@ -25,7 +25,7 @@ namespace {
 
 using PolygonTriangles = std::vector<std::array<std::uint32_t, 3>>;  ///< indices of corners
 
-/// Indices of the corners that differ from their successors.
+/// Indices of the corners that differ from the next corner.
 std::vector<std::uint32_t> different(const Ring& corners) {
     std::vector<std::uint32_t> places;
     for (std::uint32_t i = 0; i < corners.size(); ++i)
@@ -43,7 +43,7 @@ int direction(const Ring& ring) {
     return orientation(ring[(low + n - 1) % n], ring[low], ring[(low + 1) % n]);
 }
 
-/// Whether all turns have the direction `sign` and the ring goes around only once: then a single
+/// Whether all turns have the direction `sign` and the ring goes around only once, so that a single
 /// corner is lower than both neighbours. For sign 0, whether all corners are collinear.
 bool is_convex(const Ring& ring, int sign) {
     const std::size_t n = ring.size();

@@ -15,7 +15,7 @@ namespace {
 
 bool ends_word(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 
-/// Reads the words of the header, each with the single white space after it.
+/// Reads the words of the header, each with the one white space character after it.
 class Head {
   public:
     Head(std::string_view bytes, const std::string& source) : bytes_(bytes), source_(source) {}

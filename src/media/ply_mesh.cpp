@@ -95,7 +95,7 @@ Header header_of(TokenFile& file) {
     }
 }
 
-/// The numbers after the header, in order.
+/// Reader of the numbers after the header, in order.
 class Body {
   public:
     Body() = default;

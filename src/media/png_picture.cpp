@@ -15,7 +15,7 @@ namespace stipple {
 namespace {
 
 /// Stores the message of libpng, which reports errors by longjmp. Functions that call setjmp must
-/// hold no objects with destructors, since the jump would skip these.
+/// hold no objects with destructors, since the jump would not call them.
 class ErrorText {
   public:
     [[nodiscard]] const char* error() const { return text_.data(); }
@@ -141,7 +141,7 @@ bool chunks_fit(std::string_view png) {
     for (png.remove_prefix(png_magic.size()); png.size() >= 8;) {
         const std::size_t length = png_get_uint_32(reinterpret_cast<png_const_bytep>(png.data()));
         if (png.size() < 12 || length > png.size() - 12) return false;
-        if (png.substr(4, 4) == "IEND") break;  // the rest is not read
+        if (png.substr(4, 4) == "IEND") break;  // libpng reads no further
         png.remove_prefix(12 + length);
     }
     return true;

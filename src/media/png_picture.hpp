@@ -39,7 +39,7 @@ inline constexpr std::string_view png_magic = "\x89PNG\r\n\x1a\n";
 /// picture; Error(limit)
 PngPicture read_png(std::string_view bytes, const std::string& source, const RunContext& run);
 
-/// Properties of a picture without colour profile.
+/// Size and sample format of a picture without colour profile.
 struct PngShape {
     std::size_t width = 0;
     std::size_t height = 0;

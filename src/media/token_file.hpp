@@ -60,14 +60,14 @@ class TokenFile {
     /// Consumes the next token. @throws Error(input) naming `what` at the end of the file
     Token next(std::string_view what);
 
-    /// As next(), but the token must be on the line of the previous one.
+    /// Like next(), but the token must be on the line of the previous one.
     Token next_on_line(std::string_view what);
 
     /// Consumes a whole number in [low, high]. @throws Error(input) naming `what` as expected
     std::uint64_t number(std::string_view what, std::uint64_t low = 0,
                          std::uint64_t high = ~std::uint64_t{0});
 
-    /// As number(), but the number must be on the line of the previous token.
+    /// Like number(), but the number must be on the line of the previous token.
     std::uint64_t number_on_line(std::string_view what, std::uint64_t low = 0,
                                  std::uint64_t high = ~std::uint64_t{0});
 
@@ -92,8 +92,8 @@ class TokenFile {
 
     std::string name_;
     std::string bytes_;
-    std::size_t at_ = 0;     ///< position of the next token, or the end
-    std::size_t front_ = 0;  ///< position of the first token
+    std::size_t at_ = 0;     ///< byte index of the next token, or of the end
+    std::size_t front_ = 0;  ///< byte index of the first token
     std::size_t line_ = 1;
     std::size_t line_begin_ = 0;
     std::size_t last_line_ = 0;  ///< line of the last token

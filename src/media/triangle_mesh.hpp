@@ -7,7 +7,8 @@
 //     const TriangleMesh mesh = read_mesh("bunny.ply", run);
 //
 // Shape   at least one triangle; finite coordinates in [-1e150, 1e150].
-// Promise every error names the file with line and column, or with the byte if binary (all from 1).
+// Promise every error names the file with line and column, or the byte if binary (all counted from
+//         1).
 // Beware  a polygon that is not flat is replaced by its triangles; a warning gives their number.
 // Source  G. Turk, The PLY polygon file format, Stanford University, 1994; Wavefront Technologies,
 //         The Advanced Visualizer manual, appendix B1 (OBJ).
@@ -53,7 +54,7 @@ class MeshFaces {
 /// Limit for the magnitude of coordinates.
 constexpr double most_coordinate = 1e150;
 
-/// Reads a mesh; the first line determines the format. @throws Error(io) as read_file;
+/// Reads a mesh; the first line determines the format. @throws Error(io) like read_file();
 /// Error(input): not a mesh, invalid numbers, missing vertices, a truncated file
 TriangleMesh read_mesh(const std::string& path, const RunContext& run);
 
