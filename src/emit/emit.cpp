@@ -24,7 +24,7 @@ const char* library_glsl();
 namespace {
 
 constexpr std::uint64_t words_end = std::uint64_t{1} << 32;
-constexpr std::size_t columns = 92;  // of lists and of text in comments
+constexpr std::size_t columns = 92;  // width of lists and of text in comments
 
 bool is_shader(Language language) {
     return language == Language::glsl || language == Language::hlsl;
@@ -53,8 +53,8 @@ std::string wrapped_text(std::string_view text) {
     return wrapped(items, " ");
 }
 
-/// Adds a list of integers as a text: KEY, and its length as KEY.size. A list of 64-bit numbers is
-/// also KEY.words, for numbers that fit.
+/// Adds a list of integers as text: KEY, in shaders pairs of 32-bit words if the numbers have 64
+/// bits; KEY.words, always one number each; and the length, KEY.size.
 void add_list(Words& words, const Constants& list, Language language) {
     const bool hex = std::ranges::any_of(list.numbers, [](std::uint64_t x) { return x >> 31; });
     const auto word = [&](std::uint64_t x) {
@@ -73,7 +73,7 @@ void add_list(Words& words, const Constants& list, Language language) {
     words[list.name + ".size"] = std::to_string(numbers.size());
 }
 
-/// Adds the values of options, and the numbers of lists also one by one, as KEY.0, KEY.1, ...
+/// Adds the values of options as KEY; the elements of lists of numbers also as KEY.0, KEY.1, ...
 void add_options(Words& words, const Schema& schema, const Values& values) {
     for (const Option& option : schema.options()) {
         const auto& item = values.find(option.name);
@@ -100,7 +100,7 @@ std::string names_in(const Template& code, const std::vector<Unit>& units) {
     return join(names, ", ");
 }
 
-/// Adds the part of a unit, and refuses options that it does not use.
+/// Adds a unit's part of the library; refuses options that the part does not use.
 template <class Unit>
 void add_unit(Template& code, const Unit& unit, const std::vector<Unit>& all, const Values& options,
               const Words& words) {
@@ -113,7 +113,7 @@ void add_unit(Template& code, const Unit& unit, const std::vector<Unit>& all, co
             fail(ErrorKind::usage, "--{}: cannot be emitted for {}", item.name, unit.name);
 }
 
-/// Two points of each of three seeds, as a comment.
+/// A comment with the first two points for each of three seeds.
 std::string examples(const GeneratedSets& sets, Language language, const RunContext& run) {
     std::string text;
     const std::uint64_t count = std::min<std::uint64_t>(2, sets.plan().count);
@@ -146,7 +146,7 @@ class Statements {
                 fmt::format("{}(index, {}{}, seed)", name_, k, is_shader(language) ? "u" : ""));
     }
 
-    /// Replaces two coordinates by the image of a warp.
+    /// Replaces two coordinates by the image under a warp.
     void warp(const std::string& function, std::vector<std::size_t> coordinates,
               std::size_t gives) {
         if (coordinates.empty()) coordinates = {0, 1};
@@ -168,7 +168,7 @@ class Statements {
             row_[b] = numbers[1];
             return;
         }
-        // As WarpChain places them: side by side, where the first of the coordinates was.
+        // Like WarpChain, places them side by side where the first of the two coordinates was.
         row_.erase(row_.begin() + static_cast<std::ptrdiff_t>(std::max(a, b)));
         row_.erase(row_.begin() + static_cast<std::ptrdiff_t>(std::min(a, b)));
         row_.insert(row_.begin() + static_cast<std::ptrdiff_t>(a > b ? a - 1 : a), numbers.begin(),
@@ -194,7 +194,7 @@ class Statements {
     std::size_t images_ = 0;
 };
 
-/// Adds the functions of the warps, and one of whole points.
+/// Adds the functions of the warps, and a function that returns whole points.
 void add_warps(Template& code, const SetsToMake& job, const GeneratedSets& sets, Language language,
                const std::string& name, const RunContext& run) {
     Statements statements(language, name, sets.plan().dimension);
@@ -219,7 +219,7 @@ void add_warps(Template& code, const SetsToMake& job, const GeneratedSets& sets,
              {{"out", std::to_string(sets.dimension())}, {"statements", statements.text()}});
 }
 
-/// GLSL in the words of HLSL.
+/// Translates GLSL to HLSL, word by word.
 std::string to_hlsl(std::string text) {
     for (const auto& [glsl, hlsl] : {std::pair{"uvec2", "uint2"},
                                      {"vec2", "float2"},
@@ -246,7 +246,7 @@ bool in_name(char c) {
     return byte < 128 && (std::isalnum(byte) != 0 || c == '_');
 }
 
-/// Checks the name of a function, and makes one of a generator's name.
+/// Checks the name of a function; if it is empty, makes one of the generator's name.
 std::string function_name(std::string name, const std::string& generator) {
     if (name.empty()) {
         name = generator;
@@ -306,13 +306,13 @@ void check_name(const std::string& name, const std::string& code, const std::str
                   : "a name that the code uses itself");
 }
 
-/// A command for a comment, which it must not end.
+/// A command as text of a comment, without characters that would end the comment.
 std::string as_comment(std::string text) {
     for (const char* end : {"*/", "\"\"\"", "\\"}) replace_all(text, end, "?");
     return wrapped_text(text);
 }
 
-/// Words for the generator's part and the head of the file.
+/// Values of {{KEY}} for the generator's part and the head of the file.
 Words words_of(const SetsToMake& job, const Plan& plan, Language language, const RunContext& run) {
     const Generator& generator = *job.generator;
     constexpr const char* names[] = {"C", "GLSL", "HLSL", "Python"};
@@ -331,7 +331,7 @@ Words words_of(const SetsToMake& job, const Plan& plan, Language language, const
         Constants bases{"bases", {}, true};
         for (const std::uint32_t base : generator.bases(plan, job.options))
             bases.numbers.push_back(base);
-        std::uint64_t most = 0;  // images of digits, of all positions
+        std::uint64_t most = 0;  // entries of a table of digits' images
         for (const std::uint64_t base : bases.numbers)
             for (std::uint64_t power = 1, images = 0; power < std::uint64_t{1} << 62; power *= base)
                 most = std::max(most, images += base);
@@ -362,14 +362,14 @@ std::string emitted(SetsToMake job, Language language, std::string name, const R
     job.request.seed = 1;
     job.sets = 3;
     const Plan plan = plan_for(generator, job.request, job.options);
-    if (plan.dimension > most_dimensions)  // of a given vector
+    if (plan.dimension > most_dimensions)  // possible only with a given vector
         fail(ErrorKind::usage, "--dimension: {} is outside [1, {}], the range of emitted code",
              plan.dimension, most_dimensions);
     if (is_shader(language) && plan.count >= words_end)
         fail(ErrorKind::usage, "--count: {} is beyond the 32 bits of an index in GLSL and HLSL",
              plan.count);
     const char* const libraries[] = {library_c(), library_glsl(), library_glsl(), library_python()};
-    const std::string mark = "\x01";  // instead of the name, to see which names the code has
+    const std::string mark = "\x01";  // for the name, to see the code's own names
     Template code(libraries[static_cast<std::size_t>(language)], mark);
     if (language == Language::python) code.gap = "\n\n";
     Words words = words_of(job, plan, language, quiet);

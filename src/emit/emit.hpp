@@ -7,8 +7,8 @@
 // It is assembled from a library for each language (library.c, library.py, library.glsl; HLSL is
 // GLSL with other words), whose parts are named like the units that they make.
 //
-// Promise the numbers of generate(), to the last bit in C and Python, cut to float32 in GLSL and
-//         HLSL (there, those of warps up to rounding errors).
+// Promise the numbers of generate(): to the last bit in C and Python, cut to float32 in GLSL and
+//         HLSL, where numbers from warps have rounding errors.
 #pragma once
 
 #include <cstddef>
@@ -25,9 +25,9 @@ enum class Language { c, glsl, hlsl, python };
 /// Whether code can be emitted for a generator or warp of this name.
 bool can_emit(std::string_view unit);
 
-/// Text of the file.
+/// The code, as the text of a file.
 /// @param job generator, options, request, warps and command; the seeds of the examples are 1 to 3
-/// @param name of the function, and the beginning of all other names; empty: the generator's
+/// @param name name of the function, and the beginning of all other names; empty: the generator's
 /// @throws Error(usage) naming the unit, option or value that cannot be emitted
 std::string emitted(SetsToMake job, Language language, std::string name, const RunContext& run);
 

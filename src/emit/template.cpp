@@ -10,7 +10,7 @@
 namespace stipple::emit {
 namespace {
 
-/// Cuts the text before the separator off, and removes both.
+/// Returns the text before the separator, and removes both from `text`.
 std::string_view take(std::string_view& text, char separator) {
     const auto end = std::min(text.find(separator), text.size());
     const std::string_view front = text.substr(0, end);
@@ -84,7 +84,7 @@ void Template::control(std::string_view line, const Words& words) {
 
 std::string Template::filled(std::string_view part, const Words& words) {
     std::string out;
-    std::vector<bool> kept;  // of each %if around the line
+    std::vector<bool> kept;  // whether lines are kept, for each %if around
     for (std::string_view rest = parts_.find(part)->second; !rest.empty();) {
         std::string_view line = take(rest, '\n');
         const bool here = std::ranges::all_of(kept, [](bool keep) { return keep; });

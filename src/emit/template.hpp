@@ -4,8 +4,8 @@
 //
 //     %part NAME            begins a part
 //     %need NAME            puts another part before this one, once
-//     %if KEY [VALUE ...]   the lines until %end, or else those after %else, if KEY has one of these
-//                           values, or any value if none is named
+//     %if KEY [VALUE ...]   the lines until %end, or else those after %else, if KEY has one of
+//                           these values, or any value if none is named
 //     %use KEY ...          counts as a use of KEY; see used()
 //     %limit KEY MOST       refuses larger values of KEY
 //     %refuse SENTENCE      ends with this error
@@ -27,7 +27,7 @@ using Words = std::map<std::string, std::string, std::less<>>;
 
 class Template {
   public:
-    /// @param library its parts; must outlive the template
+    /// @param library text with the parts; must outlive the template
     Template(std::string_view library, std::string prefix);
 
     [[nodiscard]] bool has(std::string_view part) const { return parts_.contains(part); }
@@ -45,7 +45,7 @@ class Template {
     /// Whether a line has used the key.
     [[nodiscard]] bool used(std::string_view key) const { return used_.contains(key); }
 
-    std::string gap = "\n";  ///< between parts
+    std::string gap = "\n";  ///< text between parts
 
   private:
     [[nodiscard]] std::string replaced(std::string_view line, const Words& words);
