@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Common parts of generators whose sets keep distances in a box: the box, bounded or closed to a
-// torus, and the options for it.
+// Common code of generators that use distances between points of a box: the box, bounded or closed
+// to a torus, and the options for both.
 #pragma once
 
 #include <array>
@@ -39,14 +39,14 @@ struct BoxSpace {
     Box box;
     bool torus = true;
 
-    /// Supremum of the distances between two points.
+    /// Supremum of the distances between two points of the space.
     [[nodiscard]] double largest_distance() const;
 
     /// Largest absolute value of a coordinate.
     [[nodiscard]] double largest_coordinate() const;
 
     /// Approximate number of points of minimum distance `radius` if a cube of side `radius` holds
-    /// `density` of them; walls allow a few more.
+    /// `density` of them; in a bounded box, a few more fit along the walls.
     [[nodiscard]] double expected_points(double density, double radius) const;
 
     /// @throws Error(limit) naming `name` if rounding may move points by more than a thousandth of
@@ -57,25 +57,23 @@ struct BoxSpace {
 /// Space of the plan's box, or of the unit cube if it has none.
 BoxSpace space_of(const Plan& plan, bool torus);
 
-/// Plan for a request whose box may determine the dimension.
-/// @throws Error(usage) if the box has another dimension
+/// Plan for a request whose box, if it has one, determines the default dimension.
 Plan plan_in_bounds(const Request& request);
 
 /// plan_in_bounds() for generators that use distances.
-/// @throws Error(usage) if --torus and --bounded are given, or float64 cannot square the box's
-/// distances
+/// @throws Error(usage) if both --torus and --bounded are given, or if float64 cannot represent the
+/// squares of the box's distances
 Plan plan_in_box(const Request& request, const Values& options);
 
 /// Side lengths of the plan's box relative to the shortest; empty if all are equal, as in the unit
 /// cube.
 std::vector<double> proportions_of(const Plan& plan);
 
-/// Largest allowed ratio of two sides in plan_in_proportion.
+/// Largest ratio of two sides that plan_in_proportion() accepts.
 inline constexpr double largest_proportion = 1000;
 
 /// Plan of a generator that uses only the proportions of its box.
-/// @throws Error(usage) if the box has another dimension or a ratio of sides above
-/// largest_proportion
+/// @throws Error(usage) if a ratio of two sides is above largest_proportion
 Plan plan_in_proportion(const Request& request);
 
 /// Traits of generators that make a whole set in a rectangle.
@@ -88,7 +86,7 @@ void put_in_box(const Plan& plan, PointSet& points);
 /// Point set from `rows` without the first plan.start points; its domain is the plan's box.
 PointSet set_in_box(std::vector<double> rows, const Plan& plan);
 
-/// Largest dimension for which code with distances is compiled.
+/// Largest dimension for which templates that use distances are instantiated.
 inline constexpr std::size_t most_directions = 6;
 
 }  // namespace stipple

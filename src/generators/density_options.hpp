@@ -28,7 +28,7 @@ void check_invert(const Values& options);
 /// @throws Error(usage) as check_invert, or if --density is given and the dimension is not 2
 void check_density(const Values& options, std::size_t dimension);
 
-/// Density of --density; nullopt if it is not given or the unit has no such option.
+/// Density map read from --density; nullopt if it is not given or the unit has no such option.
 /// @throws as check_invert, read_density
 std::optional<DensityMap> given_density(const Values& options, const RunContext& run);
 
@@ -36,10 +36,10 @@ std::optional<DensityMap> given_density(const Values& options, const RunContext&
 /// @return 1 / sqrt(density at the new point), for a mean density of 1: the local spacing of points
 double follow(const DensityMap& map, const Box& box, double* point);
 
-/// Adds those of these options that are given to the points' provenance.
+/// Adds --density and --invert, if given, to the points' provenance.
 void note_density(const Values& options, PointSet& points);
 
-/// Name of the given option that makes the points uneven; nullptr if there is none.
+/// The one of density, mask and radius-map that is given and makes points uneven, or nullptr.
 const char* shaping_option(const Values& options);
 
 }  // namespace stipple

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Record of a generator, and the two ways of making points.
+// Record of a generator, and the two ways of making points: one by one, or as a whole set.
 #pragma once
 
 #include <cstddef>
@@ -22,16 +22,16 @@
 
 namespace stipple {
 
-/// Images of the points under the warps that follow, for searches that depend on them.
+/// Images of the points under the warps after their generator, for searches that optimize images.
 struct Destination {
     /// Whether point i at `row` has an image; safe to call from several threads.
     std::function<bool(std::uint64_t i, std::span<const double> row)> has_image = {};
-    bool drops = false;  ///< true if some points have no image and should be avoided
-    std::vector<OutcomeAxis> axes = {};  ///< outcomes of each coordinate
-    PointSet given = {};  ///< points of the cube to extend, if a file holds their images
+    bool drops = false;  ///< true if some points have no image; a search should avoid them
+    std::vector<OutcomeAxis> axes = {};  ///< values of each coordinate's images
+    PointSet given = {};  ///< preimages in the cube of a file's points, which the set extends
 };
 
-/// Request with all values decided.
+/// Request with defaults for all values that it leaves open.
 struct Plan {
     std::uint64_t count = 0;  ///< 0 if known only once the set is made
     std::size_t dimension = 0;
@@ -41,7 +41,7 @@ struct Plan {
     std::shared_ptr<const Destination> destination = {};  ///< null unless a search needs it
 };
 
-/// Point i as a function of i alone (given plan and options).
+/// Sequence of points: point i is a function of i alone, for a given plan and options.
 class Sequence {
   public:
     using Fill = std::function<void(std::uint64_t first, std::span<double> rows)>;
@@ -57,8 +57,8 @@ class Sequence {
     /// coordinates in [0, 1). With random_access() several threads may call it at once.
     void fill(std::uint64_t first, std::span<double> rows) const { fill_(first, rows); }
 
-    /// False for a sequential engine: continuing is cheap, but a jump generates all points in
-    /// between.
+    /// False for a random number engine that must be run in order: continuing is cheap, but a jump
+    /// generates all points in between.
     [[nodiscard]] bool random_access() const { return random_access_; }
 
     void set_found(Found found) { found_ = std::move(found); }
@@ -84,18 +84,18 @@ struct GeneratorTraits {
     bool sequence = true;      ///< makes any range of points in constant memory
     bool prefix = true;        ///< point i does not depend on the count; --start works
     bool seeded = true;        ///< uses the seed, at least under some options
-    bool boxed = false;        ///< makes points in the box itself, for its distances
+    bool boxed = false;        ///< makes points in the box, not in the cube, as distances matter
     bool independent = false;  ///< points are statistically independent
-    bool levels = false;  ///< coordinates are levels of factors, to which warps may assign outcomes
+    bool levels = false;  ///< coordinates are levels of factors, to which warps may assign values
     std::uint64_t max_index = std::uint64_t{1} << 53;  ///< start + count is at most this
-    std::string more_dimensions = {};  ///< option whose file allows more than max_dimension
+    std::string more_dimensions = {};  ///< option with a file that allows more than max_dimension
 };
 
 /// Integers in the formula of a generator's points, such as the columns of a matrix.
 struct Constants {
     std::string name;
     std::vector<std::uint64_t> numbers;
-    bool words = false;  ///< 32-bit words, which code without 64-bit integers also reads
+    bool words = false;  ///< numbers have 32 bits, for emitted code without 64-bit integers
 };
 
 /// Provenance entry of a search that was stopped and kept its best points.
@@ -106,7 +106,7 @@ struct Generator {
     std::string summary;
     std::string source;
     std::string family = {};  ///< such as "blue noise"; set by the registry from the folder
-    /// Further search terms: a kind, a part or a use of the generator.
+    /// Further search terms, such as variants, components or applications of the generator.
     std::vector<std::string> related = {};
     GeneratorTraits traits;
     Schema options;
@@ -128,7 +128,7 @@ struct Generator {
     /// A set may add values it computed, such as a radius, to the options in its provenance.
     std::function<PointSet(const Plan&, const Values&, const RunContext&)> set = {};
 
-    /// Sets options implied by others, for the provenance, such as the rule implied by a vector.
+    /// Sets options that follow from others, for the provenance: a given vector decides the rule.
     std::function<void(Values&)> settle = {};
 
     /// Whether the points depend on the seed under these options; if empty, traits.seeded decides.
@@ -141,20 +141,20 @@ struct Generator {
     /// sequence, 3e-5 n 5^(d - 2) for other sets.
     double (*cost)(double n, double d) = nullptr;
 
-    /// For sequences: true if these options start a search. Then sets are made in memory, and a
-    /// stopped search may return its best result. If empty: never.
+    /// For sequences: true if these options make a set as a whole in memory, mostly by a search; a
+    /// stopped search may then return its best result. If empty: never.
     std::function<bool(const Values&)> whole = {};
 
-    /// For generators of digits in bases other than 2: the base of each coordinate, the default of
-    /// scrambles.
+    /// For generators of digits in bases other than 2: the base of each coordinate, which scrambles
+    /// take as their default.
     std::function<std::vector<std::uint32_t>(const Plan&, const Values&)> bases = {};
 
     /// Constants of the points' formula, besides count, dimension, bases and options, for emitted
-    /// code that makes the same points (emit/). May search for them.
+    /// code (emit/) that makes the same points. Computing them may take a search.
     std::function<std::vector<Constants>(const Plan&, const Values&, const RunContext&)> constants =
         {};
 
-    /// Largest seed, if the engine's seeding takes fewer than 64 bits.
+    /// Largest seed under these options, for engines whose seeding takes fewer than 64 bits.
     std::function<std::uint64_t(const Values&)> max_seed = {};
 };
 
@@ -168,7 +168,7 @@ bool uses_seed(const Generator& generator, const Values& options);
 /// Default options, with the least search effort, for points that are needed immediately.
 Values quick_options(const Generator& generator);
 
-/// Plan if generator.plan is empty.
+/// Plan of a generator without a function `plan`: the request, with these defaults.
 Plan default_plan(const Request& request, std::uint64_t count = 1024, std::size_t dimension = 2);
 
 /// Throws Error(usage): `who` needs a count that is `what`. The message names the nearest such

@@ -15,8 +15,8 @@ namespace stipple {
 /// @throws Error(usage) if the request's dimension is not that of the file's points
 void require_dimension(const Request& request, std::size_t dimension, const std::string& file);
 
-/// Number of points to choose among the `all` of a file: `asked`, or `usual` if that is 0.
-/// @throws Error(usage) if there are fewer
+/// Number of points to choose among the `all` points of a file: `asked` or, if that is 0, `usual`.
+/// @throws Error(usage) if the file has fewer points than that
 std::uint64_t chosen_count(std::uint64_t asked, std::uint64_t usual, std::uint64_t all,
                            const std::string& file);
 

@@ -27,7 +27,7 @@ BinaryMatrices binary(const std::vector<DigitMatrix>& matrices) {
     return packed;
 }
 
-/// Blocks of b^t indices that differ only in their t lowest digits, t the largest with b^t <= 1024.
+/// Blocks of b^t indices equal except in their t lowest digits; t >= 1 is largest with b^t <= 1024.
 struct LowDigits {
     explicit LowDigits(std::uint32_t base) : block(base), count(1) {
         for (; block * base <= largest_digit_table; block *= base) ++count;
@@ -104,7 +104,7 @@ class OwenNet {
     std::vector<bool> by_block_;
 };
 
-/// Pads the matrix with zero rows, or drops its last rows.
+/// Pads the matrix with zero rows at its end, or drops its last rows, so that `rows` remain.
 DigitMatrix resized(DigitMatrix matrix, std::size_t rows) {
     matrix.rows = rows;
     matrix.digits.resize(rows * matrix.columns);
@@ -161,7 +161,7 @@ void check_net_end(const Request& request, const Plan& plan, std::uint32_t base,
 std::unique_ptr<Sequence> net_sequence(std::uint32_t base, std::vector<DigitMatrix> matrices,
                                        const Plan& plan, const Values& options) {
     if (base == 2) {
-        Values all = options;  // natural order, unless the unit has the option
+        Values all = options;  // natural order, unless the unit has --order
         if (all.try_find(binary_order.name) == nullptr)
             all.put(binary_order.name, std::string(binary_order.fallback), false);
         return binary_sequence(binary(matrices), plan, all);
@@ -195,7 +195,7 @@ std::unique_ptr<Sequence> plain_sequence(BinaryNet net) {
     });
 }
 
-/// Words in a block of points: Owen's scrambling works on one coordinate of many points at a time.
+/// 64-bit words in a block: Owen's scrambling works on one coordinate of all points of a block.
 constexpr std::size_t block_words = 2048;
 
 /// Scrambles coordinate k of the points of a block.

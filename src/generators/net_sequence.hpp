@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Points of given generating matrices, by the fastest method for their base, and optionally
-// scrambled: the result equals that of the scramble of the same name, applied to the unscrambled
+// Sequences from given generating matrices, by the fastest method for their base, and optionally
+// scrambled: the points equal those of the scramble of the same name, applied to unscrambled
 // points.
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace stipple {
 
-/// Number of digits of indices and of coordinates in a prime base.
+/// Number of digits of indices in a prime base; coordinates have at least as many.
 std::size_t net_digits(std::uint32_t base);
 
 /// Value of an option --base. @throws Error(usage) if it is not prime
@@ -28,13 +28,13 @@ std::uint32_t prime_base(std::int64_t base);
 void check_net_end(const Request& request, const Plan& plan, std::uint32_t base,
                    std::string_view who);
 
-/// @param matrices one per coordinate, all of one shape, with at most 64 columns
+/// @param matrices one per coordinate, all of the same size, with at most 64 columns
 /// @param options must include binary_scramble
 std::unique_ptr<Sequence> net_sequence(std::uint32_t base, std::vector<DigitMatrix> matrices,
                                        const Plan& plan, const Values& options);
 
-/// Generating matrices of higher order: row r of the k-th is row r / alpha of matrix alpha k + r
-/// mod alpha. Drops the last matrices if alpha does not divide their number.
+/// Generating matrices of higher order: row r of the k-th result is row r / alpha of the given
+/// matrix alpha k + r mod alpha. Ignores the last matrices if alpha does not divide their number.
 std::vector<DigitMatrix> interlace(std::vector<DigitMatrix> matrices, std::size_t alpha);
 
 /// Comment in LatNet Builder's files on the line with the interlacing factor. The next line holds
@@ -63,11 +63,11 @@ inline constexpr Param<Choice> binary_scramble{
         "Randomize the digits by the seed: add the same random digits to all points, multiply by a "
         "random triangular matrix, or use nested uniform scrambling (owen)"};
 
-/// Sequence of these matrices, ordered and scrambled according to the options.
+/// Sequence of the given generating matrices, with the order and the scramble of the options.
 std::unique_ptr<Sequence> binary_sequence(BinaryMatrices matrices, const Plan& plan,
                                           const Values& options);
 
-/// Sequence of these matrices with nested uniform scrambling.
+/// Sequence of the given generating matrices, with nested uniform scrambling.
 std::unique_ptr<Sequence> owen_sequence(const BinaryMatrices& matrices, std::uint64_t seed);
 
 /// Whether the points are scrambled; for Generator::uses_seed.

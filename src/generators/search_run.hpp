@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Progress of searches with a budget, and their end when they are stopped.
+// Progress of searches with a budget, and their reaction to stop requests.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,8 +15,8 @@
 
 namespace stipple {
 
-/// Run for the steps of a search. Ignores stop requests if the best result is kept: then the search
-/// itself checks for them.
+/// Run context for the steps of a search. Ignores stop requests if the run keeps the best result:
+/// then the search itself checks for them.
 inline RunContext until_best_is_wanted(const RunContext& run) {
     return run.keeps_best ? unstopped(run) : run;
 }
@@ -34,7 +34,7 @@ bool unless_best_is_wanted(const RunContext& run, const Work& work) {
     return true;
 }
 
-/// Reports the fraction of the budget used, the latest value and the best so far.
+/// Reports the fraction `share` of the budget that is used, the latest value and the best so far.
 inline void report_search(const RunContext& run, double share, const std::string& words,
                           double value, double best) {
     constexpr std::uint64_t parts = 10'000;

@@ -2,11 +2,11 @@
 //
 // An order of points in which the first m are well spread, for every m.
 //
-//     R_j = R_0 2^(-j / 4),   j = 0, 1, ...
+//     R_j = R_0 2^(-j / 4),   j = 0, 1, ...,   R_0 the largest distance in the space
 //
-// For each radius in turn, remaining points are visited in order; a point at least R_j from all
-// chosen points is chosen next. So the points chosen up to radius R_j keep that distance, and every
-// point is within 2^(1/4) R_j of one of them.
+// For each radius in turn, the remaining points are visited in their order; a point at least R_j
+// from all chosen points is chosen next. So the points chosen up to radius R_j keep that distance,
+// and every point is within 2^(1/4) R_j of one of them.
 //
 // Cost    O(n log(R_0 / r)) time for n points of minimum distance r.
 #pragma once

@@ -4,9 +4,9 @@
 //
 //     class c:  2^(c-1) s <= r < 2^c s,    s the minimum radius
 //
-// Disks of class c are in cells with sides of at least 2^c s. Cells take no memory of their own:
-// the hash of a cell selects the list of its disks, so that a few tiny disks in a large box cost
-// no more than others.
+// Disks of class c are in cells with sides of at least 2^c s. Empty cells take no memory: the hash
+// of a cell selects a list of disks, so that a few tiny disks in a large box cost no more than
+// others.
 //
 // Cost    a query visits about nine cells of each class that has disks; 36 to 60 bytes a disk.
 // Promise finds every disk that may be too near; possibly others, and some twice.
@@ -33,7 +33,7 @@ struct Disk {
 
 class VariedIndex {
   public:
-    /// @param expected number of disks; the index grows if there are more
+    /// @param expected estimated number of disks; the index grows if there are more
     VariedIndex(const BoxSpace& space, double least_radius, std::size_t expected)
         : low_{space.box.low[0], space.box.low[1]},
           sides_{space.box.extent(0), space.box.extent(1)},
@@ -108,7 +108,7 @@ class VariedIndex {
     static constexpr std::uint32_t none = 0xffff'ffff;
 
     struct Class {
-        double reach = 0;  ///< upper bound of the radii in the class
+        double reach = 0;  ///< upper bound of the radii in the class, 2^c s
         std::array<std::int64_t, 2> count{};
         std::array<double, 2> scale{};  ///< cells per unit of length
         std::size_t disks = 0;

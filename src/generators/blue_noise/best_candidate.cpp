@@ -6,12 +6,12 @@
 //     m = max(1, c i),    c = --candidates.
 //
 // In up to 3 dimensions only a few of the m candidates are made. The box is divided into cells,
-// each with an upper bound of the distance from any place in it to the nearest point. Some cells,
-// those with the highest bounds, are open. First the number of candidates in open cells is drawn
-// from a binomial distribution, and those candidates are made. While the distance of the best of
-// them is below the highest bound of a closed cell, that cell is opened too, and one more binomial
-// draw gives its number of the remaining candidates. The others cannot win and are never made. When
-// a cell has the highest bound, it is halved, or its bound recomputed.
+// each with an upper bound of the distance from any position in it to the nearest point. Some
+// cells, those with the highest bounds, are open. First the number of candidates in open cells is
+// drawn from a binomial distribution, and they are made. While the distance of the best of them is
+// below the highest bound of a closed cell, the bound of that cell is recomputed. If it stays, the
+// cell is halved or, once small, opened, and one more binomial draw gives its number of the
+// remaining candidates. Other candidates cannot win and are never made.
 //
 // In more dimensions cells exclude too little, so all candidates are made.
 //
@@ -62,13 +62,13 @@ class PointDraws {
     PointDraws(const Rng& rng, std::uint64_t point) : stream_(rng.bits(point)) {}
     double next() { return to_unit(stream_.next()); }
 
-    /// Binomially distributed count: hits among m trials of probability p.
+    /// Binomially distributed number of hits among m trials of probability p.
     std::uint64_t binomial(std::uint64_t m, double p) {
         if (p >= 1) return m;
         // Split in two, as the probability of no hit at all could underflow.
         if (m > 1 && static_cast<double>(m) * p > 16)
             return binomial(m / 2, p) + binomial(m - m / 2, p);
-        double chance = whole_power(1 - p, m);  // probability of k hits, from k = 0 on
+        double chance = whole_power(1 - p, m);  // probability of k hits, for k = 0, 1, ...
         double u = next();
         std::uint64_t k = 0;
         for (; k < m && u >= chance; ++k) {
@@ -82,7 +82,7 @@ class PointDraws {
     SplitMix64 stream_;
 };
 
-/// Heap entry of a cell that is not open.
+/// Entry of a closed cell in the heap, which is ordered by bounds.
 struct Waiting {
     double bound;
     std::uint32_t cell;
@@ -91,9 +91,9 @@ struct Waiting {
     }
 };
 
-/// The box divided into cells, each with an upper bound of distances. Cells with the highest bounds
-/// are open: their candidates are drawn together. Enough of them are open to receive a few
-/// candidates. The other cells are in a heap.
+/// The box divided into cells, each with an upper bound of the distance to the nearest point. Cells
+/// with the highest bounds are open, enough of them to receive a few candidates: the candidates of
+/// all open cells are drawn together. The other cells are in a heap.
 template <std::size_t D>
 class LazySearch {
   public:
@@ -127,7 +127,7 @@ class LazySearch {
         PointDraws draws(rng_, points_.count());
         best_ = -1;
         all_ = std::max(1.0, std::floor(factor_ * static_cast<double>(points_.count())));
-        // Cells become as small as the regions whose distances exceed the best candidate's.
+        // Cells become as small as the regions in which distances exceed the best candidate's.
         constexpr double fine = 64;
         open_size_ = std::min(0.25, fine * factor_ * nth_root(all_, D + 1) / all_);
         while (!heap_.empty() && all_ * open_share_ < eager) pull();
@@ -150,7 +150,7 @@ class LazySearch {
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     static constexpr std::uint32_t most_halvings = 50;
     static constexpr std::uint32_t closed = 0xffff'ffff;
-    static constexpr double eager = 64;  ///< minimum of the expected candidates in open cells
+    static constexpr double eager = 64;  ///< least expected number of candidates in open cells
 
     struct Cell {
         Point low;
@@ -166,13 +166,13 @@ class LazySearch {
         double bound;
         std::uint32_t cell;
         std::uint32_t depth;
-        std::uint32_t size = 0;  ///< number of `points` in use
+        std::uint32_t size = 0;  ///< number of entries of `points` in use
         /// Points near the cell, relative to `low`; they reject most candidates.
         std::array<Point, D + 1> points{};
     };
 
-    /// Updates the bound of the highest cell of the heap; if it is unchanged, halves or opens the
-    /// cell. Returns whether it was opened.
+    /// Updates the bound of the heap's cell of highest bound; if it is unchanged, halves or opens
+    /// the cell. Returns whether it was opened.
     bool pull() {
         const std::uint32_t id = heap_.top().cell;
         heap_.pop();
@@ -215,8 +215,8 @@ class LazySearch {
         open_share_ -= shares_[cell.depth];
     }
 
-    /// Processes the highest cell of the heap. If it is opened, draws how many of the `left`
-    /// remaining candidates are in it, and makes these. Returns their number.
+    /// Calls pull(). If that opens a cell, draws how many of the `left` remaining candidates are in
+    /// it, makes them and returns their number; otherwise returns 0.
     std::uint64_t go_on(std::uint64_t left, PointDraws& draws) {
         const double rest = 1 - open_share_;
         if (!pull()) return 0;
@@ -228,8 +228,8 @@ class LazySearch {
         return hits;
     }
 
-    /// Open cell at `place`, if all open cells are joined end to end by their volumes. A place is
-    /// the volume before it, as a fraction of the box.
+    /// Open cell that contains `place`, if all open cells are joined end to end, ordered by depth.
+    /// A place is measured in volume, as a fraction of the box.
     [[nodiscard]] const Open& open_cell(double place) const {
         std::uint32_t last = 0;
         for (std::uint32_t depth = 0; depth <= most_halvings; ++depth) {
@@ -243,8 +243,8 @@ class LazySearch {
         return list[std::min(index, list.size() - 1)];
     }
 
-    /// Updates the bounds of open cells that are near the new point or in which candidates lost;
-    /// closes or halves some of them.
+    /// Updates the bounds of open cells that are near the new point or had a candidate that did not
+    /// become the best; closes or halves some of them.
     void tidy() {
         if (points_.count() > 2 * tiles_.size()) make_tiles();
         const double level = crowded_ || heap_.empty() ? best_ : heap_.top().bound;
@@ -294,7 +294,7 @@ class LazySearch {
                 open(half);
     }
 
-    /// Makes new tiles, about as many as there are points.
+    /// Makes a new grid of tiles, which finds open cells near a point; about one tile per point.
     void make_tiles() {
         double longest = 0;
         for (const double side : sides_[0]) longest = std::max(longest, side);
@@ -316,7 +316,7 @@ class LazySearch {
         return c;
     }
 
-    /// Updates a cell's bound from all points that may be nearest to a place in it.
+    /// Updates a cell's bound from all points that may be the nearest to a location in it.
     void bound(Cell& cell) {
         if (cell.points == points_.count()) return;
         cell.points = static_cast<std::uint32_t>(points_.count());
@@ -327,8 +327,8 @@ class LazySearch {
             std::min(cell.bound, std::sqrt(covering_.squared(halves_[cell.depth])) * safety);
     }
 
-    /// Distance from the cell's centre beyond which no point can be the nearest to a place in the
-    /// cell.
+    /// Distance from the cell's centre beyond which no point can be the nearest to any location in
+    /// the cell.
     [[nodiscard]] double reach_of(const Cell& cell) const {
         double squared = 0;
         for (const double half : halves_[cell.depth]) squared += half * half;
@@ -373,7 +373,7 @@ class LazySearch {
         return way;
     }
 
-    /// Splits a cell into halves; the first keeps its number. Returns both numbers.
+    /// Splits a cell into halves; the first keeps its index. Returns both indices.
     std::array<std::uint32_t, 2> halves(std::uint32_t id) {
         const auto other = static_cast<std::uint32_t>(cells_.size());
         cells_.push_back(cells_[id]);
@@ -433,13 +433,13 @@ class LazySearch {
     std::vector<Cell> cells_;
     std::priority_queue<Waiting> heap_;
     std::array<std::vector<Open>, most_halvings + 1> open_;  ///< open cells
-    bool crowded_ = false;                                   ///< more cells are open than necessary
+    bool crowded_ = false;                                   ///< more cells are open than needed
     double open_share_ = 0;     ///< fraction of the box in open cells; exact
     std::uint32_t newest_ = 0;  ///< cell opened last
-    GridFrame<D> tiles_;        ///< frame of tile_cells_
-    /// Open cells by tile; some have been closed since.
+    GridFrame<D> tiles_;        ///< grid of the tiles
+    /// Open cells, in a list for each tile; some may have been closed since.
     std::vector<std::vector<std::uint32_t>> tile_cells_;
-    std::vector<std::uint32_t> missed_;  ///< cells in which candidates lost
+    std::vector<std::uint32_t> missed_;  ///< cells with a candidate that did not become the best
     CoveringBound<D> covering_;
     double open_size_ = 1;  ///< cells with more expected candidates are halved, not opened
     double all_ = 1;        ///< number of candidates for the current point
@@ -447,8 +447,8 @@ class LazySearch {
     Point winner_{};
 };
 
-/// Bytes per point that cells take with c = 1, by dimension; half as much again for each factor of
-/// ten in c. Measured for 3000 to 300 000 points.
+/// Bytes per point that cells take with c = 1, by dimension; each factor of ten in c adds half as
+/// much. Measured for 3000 to 300 000 points.
 constexpr std::array<double, 3> cell_bytes{700, 1500, 5800};
 
 /// Largest dimension in which cells are used. In more dimensions, making all candidates is faster
@@ -478,8 +478,8 @@ std::vector<double> lazily(const BoxSpace& space, const Plan& plan, double facto
 constexpr std::size_t together = 32;  ///< points tested at once
 constexpr double out_of_reach = 1e300;
 
-/// Least squared distance from p to the points. Stops and returns `enough` once a point is at most
-/// that near.
+/// Least squared distance from p to the points. Stops and returns `enough` once a squared distance
+/// is at most `enough`.
 /// @param along coordinates of the points, padded to a multiple of `together`
 STIPPLE_WIDE double least_squared(std::span<const std::vector<double>> along,
                                   std::span<const double> turns, const double* p, double enough) {

@@ -48,11 +48,11 @@ constexpr Param<bool> crystals{
     .name = "crystals",
     .help = "Keep hexagonal regions; by default their points are moved at random"};
 
-constexpr double rough = 1e-2;   // tolerance of the masses while points still move
-constexpr std::size_t few = 20;  // limit of Newton steps then; one or two usually suffice
+constexpr double rough = 1e-2;   // relative tolerance of the masses while points still move
+constexpr std::size_t few = 20;  // limit of Newton steps for `rough`; one or two usually suffice
 constexpr double fine = 1e-8;    // tolerance at the end; Newton's last step reaches it anyway
 constexpr double promised = 1e-6;
-constexpr std::uint64_t rest = 10;  // iterations between shakes
+constexpr std::uint64_t rest = 10;  // iterations from one shake to the next
 
 /// The direction of d, as a complex number of length 1, to the sixth power: (x + iy)^6 / |x +
 /// iy|^6.
@@ -109,8 +109,8 @@ void shake(EqualCells& cells, const Rng& rng) {
     }
 }
 
-/// Nearest place in a pixel of positive density, a random 10 to 20 % of the pixel's sides away from
-/// its edges, so that no two points coincide.
+/// Point of the pixels of positive density that is nearest to `at`, but a random 10 to 20 % of a
+/// pixel's sides away from its edges, so that no two points coincide.
 Vec2 nearest_dark(const DensityMap& density, const Planar& planar, Vec2 at, const Rng& rng,
                   std::uint64_t draw) {
     const auto columns = static_cast<std::int64_t>(density.width());
@@ -136,7 +136,7 @@ Vec2 nearest_dark(const DensityMap& density, const Planar& planar, Vec2 at, cons
             best = to;
         }
     };
-    // Searches rings of pixels until all others are farther.
+    // Searches rings of pixels around `at` until all others are farther than the best.
     for (std::int64_t ring = 0; ring < std::max(columns, rows); ++ring) {
         const double reach = static_cast<double>(ring - 1) * std::min(side.x, side.y);
         if (reach > 0 && reach * reach > least) break;
@@ -174,7 +174,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     const double least = std::min(1e-3, 0.2 / static_cast<double>(rows.size()));
     const auto floor = [least](double value) { return std::max(value, least); };
     const auto moments = planar_moments(density, floor, planar, run);
-    // Places for points that lose their cells.
+    // Positions for points that lose their cells.
     const auto rescue = random_places(rows.size() / 2, planar, density, Rng(plan.seed, 1), run);
     run.tick(0, 1);
     EqualCells cells(planar, moments, rows, run);
@@ -190,7 +190,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     const Rng nudges(plan.seed, 2 + steps);
     if (density) leave_white(cells, *density, planar, nudges);
     double off = cells.equalize(fine, rescue);
-    // The step before may have moved sites that had lost their cells.
+    // equalize() may have moved sites that had lost their cells.
     for (int i = 0; density && i < 8 && leave_white(cells, *density, planar, nudges); ++i)
         off = cells.equalize(fine, rescue);
     if (off > promised)

@@ -19,7 +19,7 @@
 // Promise sum_k d_k^2 >= radius^2 for every pair, in float64, from the coordinates as stored;
 //         d_k = |x_k - y_k|, on the torus min(d_k, side_k - d_k). The provenance has the radius,
 //         the last one if it shrinks. Point i does not depend on the number of points.
-// Beware  not maximal: with K misses, about one dart in K would still find a place.
+// Beware  not maximal: after K rejected darts in a row, about one dart in K would still fit.
 // Source  R. L. Cook, ACM Trans. Graph. 5 (1986) 51-72, doi:10.1145/7529.8927 (darts);
 //         M. McCool, E. Fiume, Graphics Interface (1992) 94-105 (relaxing radius).
 
@@ -162,8 +162,8 @@ void check_size(double points, double memory, const RunContext& run) {
     if (points >= 0xffff'fff0) fail(ErrorKind::limit, "{} are more than 2^32", what);
 }
 
-/// Throws darts until there are enough points or, without a count, until too many in a row miss.
-/// Returns the points and their radius; `expected` is their approximate number.
+/// Throws darts until there are enough points or, if the radius is fixed, until --misses darts in a
+/// row were rejected. Returns the points and their radius; `expected` is their approximate number.
 template <class Darts>
 std::pair<std::vector<double>, double> throw_all(Darts darts, const BoxSpace& space,
                                                  const Plan& plan, const Values& options,
@@ -173,7 +173,7 @@ std::pair<std::vector<double>, double> throw_all(Darts darts, const BoxSpace& sp
     const std::int64_t patience = options[misses];
     const bool stays = options.given(radius);
     double r = stays ? options[radius] : space.largest_distance();
-    std::int64_t missed = 0;  // darts in a row
+    std::int64_t missed = 0;  // number of darts rejected in a row
     for (std::uint64_t thrown = 1; wanted == 0 || darts.count() < wanted; ++thrown) {
         if (thrown % 4096 == 0) run.tick(std::min<std::uint64_t>(darts.count(), total), total);
         missed = darts.add(r) ? 0 : missed + 1;

@@ -61,14 +61,14 @@ class LayeredPoints {
     [[nodiscard]] std::uint32_t original(std::size_t s) const { return originals_[s]; }
 
     /// Calls visit(t, squared distance, 1 over the distance from which on the term is 0) for all
-    /// points t with a term, including s.
+    /// points t that have a term with s, including s itself.
     template <class Visit>
     void visit(std::size_t s, Visit&& visit) const {
         const Layer& layer = layers_[layer_of_[s]];
         this->visit((*layer.points)[s - layer.first], radii_[s], visit);
     }
 
-    /// Removes point s, then calls visit() for the other points with a term.
+    /// Removes point s, then calls visit() as above for the other points.
     template <class Visit>
     void visit_without(std::size_t s, Visit&& visit) {
         Layer& layer = layers_[layer_of_[s]];
@@ -151,7 +151,7 @@ std::vector<std::uint32_t> eliminate_from(LayeredPoints<D> points, std::uint64_t
                                           const RunContext& run) {
     const double share = static_cast<double>(kept) / static_cast<double>(points.count());
     const Kernel kernel{beta * (1 - share * std::sqrt(share))};
-    auto weights = weights_of(points, kernel, run.stage(0, 0.3));  // by new number
+    auto weights = weights_of(points, kernel, run.stage(0, 0.3));  // by index in `points`
     std::vector<Candidate> all;
     all.reserve(points.count());
     for (std::size_t s = 0; s < points.count(); ++s)
@@ -205,8 +205,8 @@ constexpr std::size_t most_points = 65'536;
 constexpr std::size_t most_balls = 256;
 constexpr std::size_t fewest = 24;  ///< minimum number of points for an estimate
 
-/// Squared distance from a point to its k-th neighbour, and the ratio of the mean squared distances
-/// of its 4k and its k nearest neighbours.
+/// Squared distance from a point to its k-th neighbour, and the ratio of two mean squared
+/// distances: that of its 4k nearest neighbours over that of its k nearest.
 struct Ball {
     double square;
     double growth;

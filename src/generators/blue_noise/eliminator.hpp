@@ -51,18 +51,18 @@ double elimination_memory(double points, std::size_t dimension, bool with_shares
 // Take a ball around one of n points that holds k of them. In d dimensions of measure A its volume
 // is nearly V_d r_k^d = A k / n, however evenly the points are spread. The mean squared distance in
 // the ball is smoother than r_k^2 and grows by the factor 4^(2/d) from k points to 4k, so the
-// median growth gives d. Balls that reach beyond a rim are too large, so the smaller ones give A:
-// within about 10 % in the plane, and in space within 25 % (200 points) or 5 % (5000).
+// median growth gives d. Balls that reach beyond the points' rim are too large, so the smaller ones
+// give A: within about 10 % in the plane, and in space within 25 % (200 points) or 5 % (5000).
 //
-// The estimate has to hold at the distances that the kept points will have: a coil of wire is a
-// curve to many points, and a surface to few. So k is about 1.5 n / kept, half of the points within
-// 2 r_max, limited to [6, n / 12].
+// The estimate has to hold at the distances between the kept points: many kept points reveal that a
+// coil of wire is a curve, few make it look like a surface. So k is about 1.5 n / kept, half of the
+// points within 2 r_max, limited to [6, n / 12].
 //
-// Cost    O(65536) distances for each of 256 points.
+// Cost    up to 65536 distances for each of 256 points.
 // Promise the same on every machine: roots and products only.
 
 struct CrowdExtent {
-    std::size_t dimension = 0;  ///< 0: there are fewer than 24 points, or too many in one place
+    std::size_t dimension = 0;  ///< 0: there are fewer than 24 points, or too many coincide
     double measure = 0;
 };
 

@@ -10,19 +10,19 @@
 //
 // Empty circles are centred at corners of Voronoi cells: each cell is stored with its farthest
 // corner, in a tree that finds the farthest of all. A move recomputes the cells around the old and
-// the new place, about 14 of them. Between walls (--bounded) cells end at the walls, and so do the
-// possible centres. Many centres are on a wall or in a corner, because distances are largest there.
+// the new position, about 14 of them. With --bounded, the box's walls end the cells. Then many
+// centres are on a wall or in a corner of the box, because distances are largest there.
 //
 // Once points are spread, the largest circle is mostly the one that the removed point has left, and
-// points move to better places only slowly, all together. Then a move overshoots the centre by 0.8
-// of its length, as in successive over-relaxation, unless that brings the point nearer to others
-// than it was. So a minimum distance of 0.93 (hexagons: 1) takes 50 iterations, instead of 400.
+// all points move only slowly. Then a move overshoots the centre by 0.8 of its length, as in
+// successive over-relaxation, unless that brings the point nearer to others than it was. So a
+// minimum distance of 0.93 (hexagons: 1) takes 50 iterations, instead of 400.
 //
 // Shape   d = 2; any rectangle, torus or bounded. No density: we know of no variant for one that we
 //         could check against its paper.
 // Cost    20 us a move, n moves an iteration; 130 bytes a point.
-// Promise the minimum distance never falls. A run ends early if an iteration moves no point to a
-//         place that is better by a part in 10^9.
+// Promise the minimum distance never falls. A run ends early if no move of an iteration raises a
+//         point's squared distance to its nearest neighbour by more than a part in 10^9.
 // Source  T. Schloemer, D. Heck, O. Deussen, "Farthest-point optimized point sets with maximized
 //         minimum distance", High Performance Graphics (2011), 135-142,
 //         doi:10.1145/2018323.2018345 (its global variant).
@@ -46,7 +46,7 @@ constexpr Param<Choice> initial{.name = planar::initial.name,
                                 .choices = planar::initial.choices,
                                 .help = "Points to start from; they are moved in this order"};
 
-/// Maximum of n numbers that change one at a time.
+/// Maximum of n values that change one at a time.
 class Tournament {
   public:
     Tournament(std::size_t n, const RunContext& run) : leaves_(std::bit_ceil(n)) {
@@ -63,7 +63,7 @@ class Tournament {
         }
     }
 
-    /// Index of the largest number; the lowest index among equals.
+    /// Index of the largest value; the lowest index among equals.
     [[nodiscard]] std::size_t winner() const {
         std::size_t node = 1;
         while (node < leaves_) node = 2 * node + (best_[2 * node] < best_[node]);
@@ -86,7 +86,7 @@ class FarthestPoint {
             if (i % 1024 == 0) run.check_stop();
             sites_.insert(i, sites_.inside({rows[2 * i], rows[2 * i + 1]}));
         }
-        std::vector<std::size_t> crowded;  // points at the same place as another one
+        std::vector<std::size_t> crowded;  // points that coincide with another one
         for (std::size_t i = 0; i < n_; ++i) {
             if (i % 1024 == 0) run.check_stop();
             refresh(i);
@@ -100,8 +100,8 @@ class FarthestPoint {
         }
     }
 
-    /// Moves the point to the centre of the largest gap; returns whether that is better than its
-    /// old place.
+    /// Moves the point to the centre of the largest gap; returns whether the gap's centre is
+    /// farther from other points than the old position.
     bool improve(std::size_t i) {
         const Vec2 was = sites_[i];
         sites_.cut_cell(i, cell_);
@@ -141,7 +141,7 @@ class FarthestPoint {
     }
 
     /// Squared distance from the site of the cell cut last to its nearest neighbour; infinite if
-    /// there are only walls.
+    /// its only neighbours are walls.
     [[nodiscard]] double squared_nearest() const {
         double least = std::numeric_limits<double>::infinity();
         for (const auto& [at, neighbor, site] : cell_.corners())
@@ -163,7 +163,7 @@ class FarthestPoint {
     /// If the largest gap is the one that the point has left, inserts the point beyond the gap's
     /// centre, unless that is nearer to others than the point was. Returns whether it was inserted.
     bool overshoot(std::size_t i, Vec2 was, Vec2 to, double nearest) {
-        constexpr double beyond = 0.8;  // fraction of the step; 0 takes 8 times as many iterations
+        constexpr double beyond = 0.8;  // over the step; 0 takes 8 times as many iterations
         const Vec2 step = sites_.shortest(was, to);
         if (step.x * step.x + step.y * step.y > nearest / 16) return false;
         sites_.insert(i, sites_.inside({to.x + beyond * step.x, to.y + beyond * step.y}));
@@ -176,7 +176,7 @@ class FarthestPoint {
     std::size_t n_;
     PeriodicVoronoi sites_;
     std::vector<Vec2> corners_;  ///< farthest corner of each cell, relative to its site
-    Tournament circles_;         ///< squared distances of these corners
+    Tournament circles_;         ///< squared distance of each cell's farthest corner
     VoronoiCell cell_;
 };
 

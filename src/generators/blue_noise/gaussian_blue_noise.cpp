@@ -5,8 +5,8 @@
 //     E = sum over pairs i < j of  exp(-(n / V)^(2/d) |x_i - x_j|^2 / 2)
 //
 // by --iterations accelerated gradient steps (relaxation/gaussian_relaxation.cpp). Up to constants,
-// E is the integral of the square of the points convolved with Gaussians of standard deviation
-// sqrt(1/2) (V / n)^(1/d). At its minimum these sums are nearly constant, so the spectrum vanishes
+// E is the integral of the square of s, the points convolved with Gaussians of standard deviation
+// sqrt(1/2) (V / n)^(1/d). At the minimum of E, s is nearly constant, so the spectrum vanishes
 // below the frequency (n / V)^(1/d) / 2.
 //
 // With a --density, kernels are as wide as the local spacing of points, and the density attracts as
@@ -37,7 +37,7 @@ namespace stipple::generators::gaussian_blue_noise {
 namespace {
 
 constexpr std::int64_t usual_steps = 1000;
-constexpr std::int64_t usual_steps_to_density = 300;  // each step takes about ten times as long
+constexpr std::int64_t usual_steps_to_density = 300;  // a step takes about ten times as long
 
 constexpr Param<std::int64_t> iterations{.name = "iterations",
                                          .low = 0,

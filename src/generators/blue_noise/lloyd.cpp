@@ -13,8 +13,8 @@
 // Shape   d = 2; any rectangle, its opposite sides joined (torus) or walls.
 // Cost    1.3 us a point and iteration on one core, with a density 2 us and more; 100 bytes a
 //         point. Points where the density is 0 all around stay where they are.
-// Promise E never rises; the same bits for any number of threads. Of points in one place all but
-//         one are moved to random places.
+// Promise E never rises; the same bits for any number of threads. Of points that coincide, all but
+//         one are moved to random positions.
 // Source  S. P. Lloyd, IEEE Trans. Inf. Theory 28 (1982) 129-137, doi:10.1109/TIT.1982.1056489.
 //         Q. Du, V. Faber, M. Gunzburger, SIAM Review 41 (1999) 637-676,
 //         doi:10.1137/S0036144599352836. Stippling: A. Secord, NPAR (2002) 37-43,

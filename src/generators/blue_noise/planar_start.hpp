@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Common parts of the generators that improve a set of points in a rectangle: its walls, the
+// Common code of the generators that improve a set of points in a rectangle: the rectangle, the
 // initial points and the density.
 //
 // random      uniform points, or points distributed by the density.
@@ -42,7 +42,7 @@ constexpr Param<std::int64_t> iterations_option(std::int64_t usual, std::string_
             .help = help};
 }
 
-/// Generator::uses_seed of generators that need random numbers only for the initial points.
+/// Generator::uses_seed of generators that draw random numbers for the initial points only.
 inline bool uses_seed(const Values& options) { return !options.given(from); }
 }  // namespace planar
 
@@ -71,12 +71,12 @@ struct PlanarStart {
 PlanarStart planar_start(const Plan& plan, const Values& options, double bytes,
                          std::string_view who, const RunContext& run);
 
-/// Moments over cells of function(density), scaled to a mean of 1; nullopt without a density.
+/// Moments over cells of function(density) after scaling to a mean of 1; nullopt without a density.
 std::optional<DensityMoments> planar_moments(const std::optional<DensityMap>& density,
                                              const std::function<double(double)>& function,
                                              const Planar& planar, const RunContext& run);
 
-/// Order of the points along strips of the rectangle: neighbours are close in memory.
+/// Indices of the points along strips of the rectangle: neighbours become close in memory.
 std::vector<std::uint32_t> along_strips(const std::vector<double>& rows, const Planar& planar,
                                         const RunContext& run);
 

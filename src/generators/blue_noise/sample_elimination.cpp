@@ -19,7 +19,7 @@
 //
 // --order random       the remaining points, in their original order
 // --order progressive  half of the remaining points are eliminated in the same way, with r_max for
-//                      the number that is left. They go to the end, the first eliminated one last.
+//                      the points that are left. Eliminated points go to the end, the first last.
 //                      Then half of the others, and so on. Every prefix is well spread.
 //
 // Shape   d = 1, ..., 6; distances are those in the box of --bounds, across its faces (torus) or
@@ -84,13 +84,13 @@ constexpr Param<double> measure{.name = "measure",
                                     "Length of the curve, area of the surface...; default: that of "
                                     "the box, or an estimate if the points fill less of it"};
 
-/// All points to choose from, and the space that they are in.
+/// All points to choose from, and the space with its metric that contains them.
 struct Crowd {
     std::vector<double> rows;
     BoxSpace space;
     std::vector<double> shares = {};  ///< radius of each point as a multiple of r_max
     CrowdExtent extent = {};
-    /// Number of equal points before each point; empty: all differ.
+    /// For each point, the number of equal points before it; empty if all points differ.
     std::vector<std::uint32_t> copies = {};
 };
 
@@ -193,7 +193,7 @@ Crowd random_crowd(const Plan& plan, const Values& options, const RunContext& ru
     return crowd;
 }
 
-/// Rows of the distinct points.
+/// Rows of the distinct points, each once.
 std::vector<double> different_rows(const Crowd& crowd) {
     const std::size_t d = crowd.space.box.dimension();
     std::vector<double> rows;
@@ -205,7 +205,7 @@ std::vector<double> different_rows(const Crowd& crowd) {
     return rows;
 }
 
-/// Extent of a file's points: from the options, or their box if they fill it, or estimated.
+/// Extent of a file's points: from the options, that of their box if they fill it, or estimated.
 CrowdExtent extent_of_file(const Crowd& crowd, std::uint64_t kept, const Values& options,
                            const RunContext& run) {
     constexpr double most_of_it = 0.88;
@@ -239,7 +239,7 @@ double radius_for(const Crowd& crowd, std::uint64_t kept) {
 }
 
 /// Removes copies of other points until `kept` points or no copies are left. Returns the removed
-/// copies, in order: those of the most frequent points first.
+/// copies in order: those of the most frequent points first.
 std::vector<std::uint32_t> take_copies(const Crowd& crowd, std::vector<std::uint32_t>& points,
                                        std::uint64_t kept) {
     std::vector<std::uint32_t> gone;
@@ -254,7 +254,7 @@ std::vector<std::uint32_t> take_copies(const Crowd& crowd, std::vector<std::uint
     return gone;
 }
 
-/// Eliminates points (row numbers) until `kept` are left. Returns the removed points, in order.
+/// Eliminates points (row indices) until `kept` are left. Returns the removed points, in order.
 std::vector<std::uint32_t> thin(const Crowd& crowd, std::vector<std::uint32_t>& points,
                                 std::uint64_t kept, const RunContext& run) {
     const std::size_t d = crowd.space.box.dimension();

@@ -14,7 +14,7 @@
 namespace stipple {
 namespace {
 
-/// A point that may be kept. Scores are not negative, so their bit patterns sort like the scores.
+/// A point that may be kept. `score` has the bits of a nonnegative double, which sort like doubles.
 struct ScoredPoint {
     std::uint64_t score;
     std::uint64_t tile;
@@ -22,14 +22,14 @@ struct ScoredPoint {
     auto operator<=>(const ScoredPoint&) const = default;
 };
 
-/// Scores whose bits are in [low, low + 2^width).
+/// Range of scores: those with bits in [low, low + 2^width).
 struct Window {
     std::uint64_t low = 0;
     int width = 63;
     [[nodiscard]] std::uint64_t high() const { return low + (std::uint64_t{1} << width); }
 };
 
-/// Points of all tiles with their scores.
+/// Points of all tiles, as candidates with scores.
 class TilesInWindow {
   public:
     TilesInWindow(const std::vector<Vec2>& tile, const Tiling& tiling,
@@ -51,8 +51,8 @@ class TilesInWindow {
     [[nodiscard]] std::uint64_t tiles() const { return tiling_.tiles(); }
     [[nodiscard]] std::uint64_t ranks() const { return tile_.size(); }
 
-    /// Calls use(candidate, x, y) by rank for the points of the tile with a score of at most
-    /// `most`, and possibly for others.
+    /// Calls use(candidate, x, y), by rank, for the points of the tile whose score has at most the
+    /// bits `most`, and possibly for others.
     template <class Use>
     void visit(std::uint64_t tile, std::uint64_t most, const Use& use) const {
         const double top = largest_[tile];
@@ -81,7 +81,7 @@ class TilesInWindow {
                 static_cast<double>(tile / tiling_.columns)};
     }
 
-    /// u_c of the tile; the factors are 2^64 / p and 2^64 / p^2, p^3 = p + 1.
+    /// u_c of the tile (thinned_tiles.hpp); the factors are 2^64 / p and 2^64 / p^2, p^3 = p + 1.
     [[nodiscard]] double offset(std::uint64_t tile) const {
         return to_unit(shift_ + 0xc13fa9a902a6328f * (tile % tiling_.columns) +
                        0x91e10da5c79e7b1c * (tile / tiling_.columns));
@@ -102,7 +102,7 @@ std::uint64_t block_of(const TilesInWindow& candidates) {
 constexpr int bin_bits = 12;
 using Bins = std::array<std::uint64_t, 1 << bin_bits>;
 
-/// Number of scores in each bin of a window, and below the window.
+/// Number of scores in each bin of a window, and of those below the window.
 struct Histogram {
     std::uint64_t before = 0;
     Bins bins{};

@@ -5,10 +5,10 @@
 //
 //     (r + u_c) / rho(x),    u_c = frac(column / p + row / p^2 + seed's offset),  p^3 = p + 1,
 //
-// and the n points with the lowest scores are kept: about rho(x) s per tile, s the n-th score. As
-// the u_c are spread evenly over the tiles, the number of a tile's points is rounded up in one and
-// down in the next; so large regions get their share even if rho is too low for a point in every
-// tile.
+// and the n points with the lowest scores are kept: about rho(x) s per tile, where s is the n-th
+// score. As the u_c are spread evenly over the tiles, the number of points is rounded up in some
+// tiles and down in others; so large regions get their share even if rho is too low for a point in
+// every tile.
 //
 // Shape   of several points with the n-th score, those of lower tile, then of lower rank, are kept.
 // Cost    3 visits to each candidate, a point with a rank below s times the largest density in its

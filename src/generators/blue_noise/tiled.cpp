@@ -18,15 +18,15 @@
 // rank 1, and so on. The last rank has only m = n - K^2 (t - 1) points, spread evenly over the
 // tiles: the j-th is in tile floor(j K^2 / m).
 //
-// --bounds    K x L tiles in a box that is not a square: nearly squares, and no more than needed.
+// --bounds    K x L tiles in a box that is not a square: nearly squares, and few more than needed.
 //             The tile is optimised with the proportions that it has in the box, so the set is
 //             even and periodic there. Points stay in [0, 1)^2 until they are scaled.
 // --density   tiles of t = ceil((n + 2 sqrt(n)) top / K^2) points, top the largest density over its
 //             mean. Ranks are thresholds (thinned_tiles.hpp): of all points with a density above 0,
 //             the n with the least (rank + u) / density are kept, 0 <= u < 1 one number per tile.
-//             The few points beyond n top keep the places of largest density from running out of
-//             points; if they are too few, as in a picture as fine as the points, there are more
-//             tiles. These points are ordered by tile. A constant density has no effect.
+//             The 2 sqrt(n) points beyond n top keep regions of large density from running out; if
+//             too few, as in a picture as fine as the points, there are more tiles. Points are
+//             ordered by tile. A constant density has no effect.
 //
 // Shape   2-D. A sequence: point i is a function of i, n and the seed; memory for the tile only,
 //         and with a density 16 bytes for each repetition of it.
@@ -129,7 +129,7 @@ STIPPLE_WIDE void place_row(double* row, std::size_t count, double column, doubl
     }
 }
 
-/// Writes points of one rank in one row of tiles; returns their number.
+/// Writes points of one rank in one row of tiles; returns the number of points written.
 std::uint64_t fill_row(const std::vector<Vec2>& tile, const Tiling& tiling, std::uint64_t first,
                        std::uint64_t most, double* out) {
     const std::uint64_t row = first / tiling.columns;
@@ -166,7 +166,7 @@ std::unique_ptr<Sequence> repeated(const std::vector<Vec2>& tile, const Tiling& 
     });
 }
 
-/// Tiling of at least `least` nearly square tiles, and few more, in a box with these sides.
+/// Tiling of at least `least` nearly square tiles, and few more, in a box with the given sides.
 Tiling tiling_of(std::uint64_t least, Vec2 sides) {
     const double longer = std::max(sides.x, sides.y) / std::min(sides.x, sides.y);
     auto across =

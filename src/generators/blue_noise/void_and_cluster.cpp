@@ -11,12 +11,12 @@
 // --mask-image  the ranks as a dither mask, 16 bits of grey: floor((rank + 1/2) 65536 / (W H)). A
 //               pixel of a picture, its grey in [0, 65536), becomes white if it is above the mask.
 //
-// Shape   2-D, n <= W H. Without --size: the smallest square whose side is a power of two with at
+// Shape   2-D, n <= W H. Without --size: a square whose side is the smallest power of two with at
 //         least 16 cells a point; with a density, 4 a point at its maximum. In a box that is not a
-//         square, the shorter side has that many cells, the longer as many as make cells squares.
+//         square, the shorter side is a power of two, the longer as many as make cells squares.
 // Promise point i does not depend on n when --size is given and --density is not.
-// Beware  points lie on cells: their spectrum repeats with periods W and H. --cell random avoids
-//         that, at some cost in evenness. Where n density(c) > W H, no further point fits.
+// Beware  points are on a grid: their spectrum repeats with periods W and H. --cell random avoids
+//         that, at some cost in evenness. A cell c with n density(c) > W H gets too few.
 // Source  R. Ulichney, "The void-and-cluster method for dither array generation", Proc. SPIE 1913
 //         (1993) 332-343, doi:10.1117/12.152707.
 
@@ -122,8 +122,8 @@ std::string mask_png(const Torus& torus, const std::vector<std::uint32_t>& order
                       png_bytes_of_samples(samples, 16), {});
 }
 
-/// Calls visit(part, overlap) for each of `parts` equal parts of the unit interval that overlaps
-/// part `number` of `all` equal ones. The overlap is in units of 1 / (parts all).
+/// Calls visit(part, overlap) for each of `parts` equal intervals of [0, 1) that overlaps
+/// [number / all, (number + 1) / all). The overlap is in units of 1 / (parts all).
 template <class Visit>
 void for_overlaps(std::uint64_t number, std::uint64_t all, std::uint64_t parts,
                   const Visit& visit) {
@@ -144,7 +144,7 @@ double mean_density(const DensityMap& map, const Torus& torus, std::uint32_t num
     return sum / static_cast<double>(map.width() * map.height());
 }
 
-/// The first `count` cells that dithering fills.
+/// The first `count` cells in the order in which dithering fills them.
 std::vector<std::uint32_t> dithered(const Torus& torus, const std::vector<std::uint32_t>& order,
                                     const DensityMap& map, std::size_t count,
                                     const std::string& file) {

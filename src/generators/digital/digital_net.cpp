@@ -91,7 +91,7 @@ constexpr Param<std::int64_t> interlacing{
         "Interlacing factor alpha: each coordinate takes its digits from alpha matrices; default: "
         "from the file, else 1"};
 
-/// Matrices of one shape, in one prime base.
+/// Matrices of the same size, in one prime base.
 struct MatrixFile {
     std::uint32_t base = 2;
     std::vector<DigitMatrix> matrices;
@@ -110,7 +110,7 @@ struct Header {
     std::size_t interlaced = 1;
 };
 
-/// Title of LatNet Builder's nets, which do not contain their base.
+/// First line of LatNet Builder's files of nets, which do not contain the base.
 constexpr std::string_view latnet_title = "# Parameters for a digital net in base 2";
 
 std::string layout_of(const TokenFile& file, std::string_view wanted) {
@@ -156,7 +156,7 @@ Header read_header(TokenFile& file) {
     return header;
 }
 
-/// Numbers of a line: `count` of them, or all if `count` is 0.
+/// Integers of a line: `count` of them, or all of them if `count` is 0.
 std::vector<std::uint64_t> read_line(TokenFile& file, std::string_view what, std::size_t count,
                                      std::uint64_t high) {
     std::vector<std::uint64_t> line{file.number(what, 0, high)};

@@ -12,7 +12,7 @@
 // Cost    O(n d): five nanoseconds a coordinate.
 // Promise every coordinate is correctly rounded, and below 1. A (0, d)-sequence in base b: any b^m
 //         points from an index that b^m divides are a (0, m, d)-net, which meets each of the b^m
-//         equal boxes with sides b^-k_1, ..., b^-k_d exactly once.
+//         equal boxes with sides b^-k_1, ..., b^-k_d, k_1 + ... + k_d = m, exactly once.
 // Beware  the first b points lie on the diagonal; a base much above the dimension has long
 //         stretches of points on lines.
 // Source  H. Faure, Acta Arith. 41 (1982) 337-351, doi:10.4064/aa-41-4-337-351.

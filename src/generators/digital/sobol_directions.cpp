@@ -8,7 +8,7 @@
 //
 // Source   P. Bratley, B. L. Fox, ACM Trans. Math. Softw. 14 (1988) 88-100,
 //          doi:10.1145/42288.214372, for the recurrence; S. Joe, F. Y. Kuo, SIAM J. Sci. Comput. 30
-//          (2008) 2635-2654, doi:10.1137/070709359, for the numbers.
+//          (2008) 2635-2654, doi:10.1137/070709359, for the first numbers.
 #include "generators/digital/sobol_directions.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Fast component-by-component construction. Let p_i be the product over the components so far. The
-// next component z minimises
+// Fast component-by-component construction. Let p_i be the product of the factors (1 + weight_k
+// omega(i z_k / n)) over the components so far. The next component z minimises
 //
 //     E(z) = sum_i p_i omega(i z / n).
 //
@@ -212,7 +212,7 @@ class Construction {
         for (std::uint64_t i = 0; i < n_; i += rows_at_once)
             multiply(omega_, i, std::min<std::size_t>(rows_at_once, n_ - i), static_cast<double>(z),
                      weight, &p[i]);
-        p[0] = 0;  // the same for all vectors, as every lattice has the origin
+        p[0] = 0;  // the origin adds the same to E for all vectors
         products_.keep_in_range();
     }
 
@@ -297,8 +297,8 @@ std::uint64_t korobov_multiplier(std::uint64_t n, std::span<const double> weight
     double least = std::numeric_limits<double>::infinity();
     for (std::uint64_t t = 0; t < tries; ++t) {
         search_tick(run, t, tries);
-        // Tries all numbers if there is time; otherwise numbers at multiples of the golden ratio,
-        // because these spread over the range.
+        // Tries all multipliers if there is time; otherwise multiples of the golden ratio modulo 1,
+        // scaled to the range, because these are spread evenly.
         const std::uint64_t turn = t * 0x9E3779B97F4A7C15;
         std::uint64_t a =
             1 + (tries == range ? t : static_cast<std::uint64_t>(Wide{turn} * range >> 64));

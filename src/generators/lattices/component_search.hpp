@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Common parts of the searches for a generating vector, component by component. Let p be the
-// product over the components so far. The next component z minimises
+// product of the factors of all components so far. The next component z minimises
 //
-//     E(z) = sum_a p_a kernel[a + b],    a and b exponents of the points' number and of z
+//     E(z) = sum_a p_a kernel[a + b],    a and b exponents of a point's index and of z
 //
 // in a product of cyclic groups: a correlation, which Fourier transforms give for all z at once.
 // Transforms round differently on different machines, so they only nominate candidates. All
@@ -67,7 +67,7 @@ class Products {
     [[nodiscard]] double mean() const;
 
     /// Bound on the rounding errors of E, computed from p - mean by transforms or by plain sums:
-    /// relative to the norm of p - mean times that of the kernel.
+    /// 10^-13 times the norm of p - mean times the norm of the kernel.
     [[nodiscard]] double rounding(double kernel_norm) const;
 
   private:

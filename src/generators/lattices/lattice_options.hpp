@@ -44,7 +44,7 @@ inline constexpr Param<Choice> vector_format{
 struct VectorFile {
     std::vector<std::uint64_t> vector;
     std::uint64_t points = 0;    ///< 0: not in the file
-    std::size_t interlaced = 1;  ///< number of components interlaced to a coordinate
+    std::size_t interlaced = 1;  ///< number of components interlaced into one coordinate
     std::uint64_t modulus = 0;   ///< polynomial in base 2; 0: not a polynomial lattice
 };
 
@@ -55,7 +55,7 @@ struct VectorFile {
 /// Source  github.com/QMCSoftware/LDData, README.md
 VectorFile vector_in_file(const Values& options, bool polynomial);
 
-/// File named by --vector-output; empty without it.
+/// The file to write for --vector-output; empty without this option.
 std::vector<SideFile> vector_files(const Values& options, const VectorFile& lattice);
 
 /// Rejects --weights together with --decay, and either of them if nothing is searched.
@@ -65,14 +65,14 @@ std::vector<SideFile> vector_files(const Values& options, const VectorFile& latt
 void check_weights(const Values& options, bool searches, std::string_view searching,
                    std::string_view rule);
 
-/// First components of the vector from an option or a file.
+/// The first `dimension` components of the vector from an option or a file.
 /// @param range name of the allowed range in messages
 /// @throws Error(usage) if they are too few, or one is not an integer from `least` to `most`
 std::vector<std::uint64_t> given_components(const Values& options, const VectorFile& file,
                                             const Param<Numbers>& vector, std::size_t dimension,
                                             double least, double most, std::string_view range);
 
-/// Weights of the first coordinates. @throws Error(usage) if they are too few, or not in (0, 10^6]
+/// Weights of the `dimension` coordinates. @throws Error(usage) if fewer, or outside (0, 10^6]
 std::vector<double> weights_of(const Values& options, std::size_t dimension);
 
 }  // namespace stipple

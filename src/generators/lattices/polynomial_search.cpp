@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Fast component-by-component construction. Let p_i be the product over the components so far. The
-// next component q minimises
+// Fast component-by-component construction. Let p_i be the product of the factors of all components
+// so far, 1 + weight_k omega(...). The next component q minimises
 //
 //     E(q) = sum_i p_i omega((i q mod modulus) / modulus).
 //
@@ -9,7 +9,7 @@
 // With i = g^a and q = g^b the sum is a correlation in a and b, which a Fourier transform gives for
 // all q at once.
 //
-// Cost     O(d n log n) time, 60 n bytes.
+// Cost     O(d n log n) time; 70 to 130 n bytes.
 // Promise  the same vector on every machine (component_search.hpp).
 // Source   J. Baldeaux, J. Dick, G. Leobacher, D. Nuyens, F. Pillichshammer, Numer. Algorithms 59
 //          (2012) 403-431, doi:10.1007/s11075-011-9497-y; D. Nuyens, R. Cools, Math. Comp. 75

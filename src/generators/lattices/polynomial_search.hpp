@@ -31,13 +31,13 @@ inline constexpr int largest_searched_degree = 22;
 double digital_shift_kernel(double x);
 
 /// Mean square of the worst-case errors of all digital shifts of a polynomial lattice of all
-/// 2^deg(modulus) points, in the space with these weights.
+/// 2^deg(modulus) points, in the space with the given weights.
 double squared_polynomial_error(std::uint64_t modulus, std::span<const std::uint64_t> vector,
                                 std::span<const double> weights);
 
 /// Vector that begins with 1 and grows by the component with the least e^2; among components that
-/// are equal up to rounding, by the smallest number. There is one component per weight. The modulus
-/// must be irreducible, of degree 1 to largest_searched_degree.
+/// are equal up to rounding, the smallest as an integer. There is one component per weight. The
+/// modulus must be irreducible, of degree 1 to largest_searched_degree.
 std::vector<std::uint64_t> polynomial_components(std::uint64_t modulus,
                                                  std::span<const double> weights,
                                                  const RunContext& run);

@@ -4,7 +4,7 @@
 //
 //     x_k = (i z_k mod n) / n.
 //
-// The vector comes by one of four rules:
+// The vector is found by one of four rules:
 //
 //     cbc        component by component, each minimising the worst-case error in the weighted
 //                Korobov space of smoothness 2 (component_by_component.hpp); no component repeats
@@ -186,7 +186,7 @@ std::vector<std::uint64_t> vector_of(const Plan& plan, const Values& options,
 Sequence::Fill multiples(std::uint64_t n, const std::vector<std::uint64_t>& z) {
     const std::size_t d = z.size();
     const std::size_t points = (some_numbers + d - 1) / d;  // number of points made at a time
-    std::vector<double> back;  // n - (points z mod n) for each of these coordinates
+    std::vector<double> back;  // n - (points * z mod n) for each coordinate of these points
     for (std::size_t m = 0; m < points * d; ++m)
         back.push_back(static_cast<double>(n) - multiple(points, z[m % d], n));
     return [=](std::uint64_t first, std::span<double> rows) {

@@ -22,16 +22,16 @@
 namespace stipple::optimized {
 namespace {
 
-/// Box, given by the ranks of its corner's coordinates.
+/// Box, given by the ranks of its corner's coordinates (n for 1).
 struct Hit {
     std::uint32_t at[3];
     float value;
     bool open;
 };
 
-/// Counts of points in rows, one row for each value of the coordinate before the last. `reaches`
-/// has a box's volume per unit of its last coordinate, `shares` the value of one point; both are
-/// weighted, and negated for closed boxes.
+/// Counts of points in rows, one row for each value of the second last coordinate. For the boxes of
+/// each row, `reaches` has the volume per unit of the last coordinate, and `shares` the fraction
+/// 1/n of one point; both times the box's weight, and negated for closed boxes.
 struct Plane {
     const float* counts;
     std::size_t stride;
@@ -54,8 +54,8 @@ inline bool any_above(const float* values, const float* counts, float reach, flo
     return any != 0;
 }
 
-/// Appends the places of a plane with values[k] * reach - counts[k] * share > least, for k in
-/// [first, last). Tests whole rows first, since most rows have no such place.
+/// Appends the row and column k of all boxes of a plane with
+/// values[k] * reach - counts[k] * share > least. Most rows have none, and are ruled out first.
 STIPPLE_WIDE void find_above(const Plane& plane, const float* values, float least,
                              std::size_t first, std::size_t last, std::vector<Place>& places) {
     constexpr std::size_t lanes = 32;
@@ -75,7 +75,7 @@ STIPPLE_WIDE void find_above(const Plane& plane, const float* values, float leas
     }
 }
 
-/// Increments the counts of a row from a point's position on.
+/// Increments `size` counts of a row.
 STIPPLE_WIDE void add_one(float* counts, std::size_t size) {
     for (std::size_t k = 0; k < size; ++k) counts[k] += 1;
 }
@@ -115,7 +115,7 @@ class AnchoredObjective final : public Objective {
   private:
     static constexpr std::size_t lanes = 16;
 
-    /// Hits and buffers of one thread.
+    /// Hits and buffers of one thread, for a range of planes.
     struct Part {
         std::vector<float> counts;
         std::vector<float> reaches;
@@ -127,7 +127,7 @@ class AnchoredObjective final : public Objective {
     /// Boxes with weights below e^-reach in the soft maximum are ignored.
     static constexpr double reach = 7;
 
-    /// Weight of an axis for a box that ends at `place` on it.
+    /// Weight of an axis for a box that ends at the coordinate of rank `place`.
     [[nodiscard]] float weight(std::size_t axis, std::size_t place) const {
         return place < n_ ? weights_[axis] : std::max(1.0F, weights_[axis]);
     }
@@ -147,9 +147,9 @@ class AnchoredObjective final : public Objective {
         }
     }
 
-    /// Finds all boxes above `least`, plane by plane along the first axis; in two dimensions there
-    /// is one plane. Each part begins by counting the points before it, so there are no more parts
-    /// than threads.
+    /// Finds all boxes whose value exceeds `least`, plane by plane along the first axis; in two
+    /// dimensions there is one plane. Planes are divided into no more parts than threads, because
+    /// each part begins by counting the points before its first plane.
     void look(float least, const RunContext& run) {
         constexpr std::size_t few = 100;
         const std::size_t planes = d_ == 3 ? n_ + 1 : 1;
@@ -179,15 +179,15 @@ class AnchoredObjective final : public Objective {
             add_one(&counts[b * stride_ + first], n_ + 2 - first);
     }
 
-    /// Searches the boxes that end in plane `a` and adds its point to the counts.
+    /// Searches the boxes that end in plane `a`, and adds the point of that plane to the counts.
     void look_at(std::size_t a, float least, Part& part, const RunContext& run) const {
         look_in(a, true, least, part, run);
         if (a < n_) add(order_[0][a], part.counts);
         look_in(a, false, least, part, run);
     }
 
-    /// Searches the open or closed boxes that end in plane `a`. Closed boxes use the counts one
-    /// position further.
+    /// Searches the open or closed boxes that end in plane `a`. Closed boxes use the counts one row
+    /// and one column further.
     void look_in(std::size_t a, bool open, float least, Part& part, const RunContext& run) const {
         const float outer = weight(0, a) * (open ? 1 : -1);
         const float width = d_ == 3 ? values_[0][a] : 1;
@@ -253,9 +253,9 @@ class AnchoredObjective final : public Objective {
     std::size_t n_;
     std::size_t d_;
     std::size_t width_;   ///< size of values_, a multiple of `lanes`
-    std::size_t stride_;  ///< row length of counts
+    std::size_t stride_;  ///< length of a row of counts
     float weights_[3] = {1, 1, 1};
-    double last_ = 0;  ///< value at the previous points
+    double last_ = 0;  ///< value at the points of the previous call
     std::vector<std::uint32_t> order_[3];
     std::vector<std::uint32_t> ranks_[3];
     std::vector<float> values_[3];  ///< sorted coordinates, then 1

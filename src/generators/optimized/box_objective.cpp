@@ -29,14 +29,14 @@ namespace {
 
 using namespace discrepancy;
 
-/// Clears the marks of points that are not in (low, high).
+/// Clears the marks of points whose coordinate x is not in (low, high).
 STIPPLE_WIDE void keep_between(const double* x, double low, double high, std::size_t size,
                                std::int64_t* inside) {
     for (std::size_t i = 0; i < size; ++i)
         inside[i] &= std::int64_t{x[i] > low} & std::int64_t{x[i] < high};
 }
 
-/// Clears the marks of points that are not in [low, high].
+/// Clears the marks of points whose coordinate x is not in [low, high].
 STIPPLE_WIDE void keep_within(const double* x, double low, double high, std::size_t size,
                               std::int64_t* inside) {
     for (std::size_t i = 0; i < size; ++i)
@@ -140,15 +140,15 @@ class BoxObjective final : public Objective {
         return of;
     }
 
-    /// Whether all sides are at points. The torus's grid has no rim; boxes that end there are
-    /// duplicates.
+    /// Whether all sides are at points. The torus's grid has no sides at 0 and 1; a box with such a
+    /// side duplicates another.
     [[nodiscard]] bool ends_at_points(const PoolBox& box) const {
         return std::ranges::none_of(box.axes, [&](const Sides& sides) {
             return sides.lower == rim_ || sides.upper == rim_;
         });
     }
 
-    /// Converts a box of the grid to one given by the points at its sides.
+    /// Converts a box of the grid to a box that is given by the points at its sides.
     [[nodiscard]] PoolBox pool_box(const WorstBox& worst) const {
         PoolBox box{.open = !worst.closed()};
         const std::vector<double> low = worst.corner(&Interval::lower);
@@ -163,7 +163,7 @@ class BoxObjective final : public Objective {
         return box;
     }
 
-    /// Coordinate as in the grid, where 1 is 0 on the torus.
+    /// Coordinate in the grid: on the torus, 1 becomes 0.
     [[nodiscard]] double place(double x) const {
         return family_ == Family::torus && x == 1 ? 0 : x;
     }
@@ -324,7 +324,7 @@ class BoxObjective final : public Objective {
         return near;
     }
 
-    /// Adds the results of ascents to the pool and removes boxes far from the worst.
+    /// Adds the results of ascents to the pool, and removes boxes far below the largest value.
     void ascend(double sharpness, const RunContext& run) {
         const std::size_t some = pool_.empty() ? 20 * ascents : ascents;
         for (std::size_t k = 0; k < some; ++k) {

@@ -17,7 +17,7 @@ namespace {
 
 double turned(double x) { return std::min(x - std::floor(x), one_minus_ulp); }
 
-/// Part of a lattice's squared wraparound discrepancy that depends on its vector.
+/// Term of a lattice's squared wraparound discrepancy that depends on its generating vector.
 double wraparound_sum(std::size_t count, const std::vector<std::size_t>& vector) {
     std::vector<std::size_t> at(vector.size());
     double sum = 0;
@@ -40,7 +40,7 @@ std::size_t vectors_to_draw(std::size_t count, std::size_t dimension) {
     return static_cast<std::size_t>(std::clamp(all / 50, 10.0, 1000.0));
 }
 
-/// Rows of a lattice of rank 1: i times a vector over n, plus a shift, modulo 1.
+/// Rows of a lattice of rank 1: i times its generating vector over n, plus a shift, modulo 1.
 std::vector<double> rank1_rows(std::size_t count, std::span<const std::size_t> vector,
                                std::span<const double> shift) {
     const auto n = static_cast<double>(count);
@@ -51,7 +51,7 @@ std::vector<double> rank1_rows(std::size_t count, std::span<const std::size_t> v
     return rows;
 }
 
-/// Geometric sequence from one value to another in a given number of steps.
+/// Geometric sequence from one value to another, with a given number of terms.
 class Geometric {
   public:
     Geometric(double from, double to, std::size_t steps)
@@ -103,9 +103,9 @@ class Adam {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Returns the last set of a descent or, if a stop ends the descent and the run keeps the best, the
-/// set of least value so far. If that value is above `enough`, the result has no rows and its value
-/// may be too small, because computing a certain value can take longer than the descent.
+/// Returns the best set at the end of a round of a descent or, if a stop ends the first round and
+/// the run keeps the best, the best set so far. If the first round ends above `enough`, the result
+/// has no rows, and its value may be too small, as a certain one can take longer than the descent.
 OptimizedRows descend(std::vector<double> rows, const CoordinateSearch& search,
                       const Schedule& schedule, double enough, const RunContext& run) {
     const std::unique_ptr<Objective> objective = search.objective();
@@ -116,8 +116,8 @@ OptimizedRows descend(std::vector<double> rows, const CoordinateSearch& search,
     Geometric sharpness(schedule.first_sharpness, schedule.last_sharpness, schedule.steps);
     Adam adam(rows.size());
     constexpr double near = 1.001;
-    // Descends by `steps` steps. True if the descent is over: its value exceeds `enough`, or no box
-    // is worse than those that the descent has used.
+    // One round of `steps` steps. True if the descent is over: its value exceeds `enough`, or no
+    // box is much worse than those that the descent has used.
     const auto go = [&](std::size_t steps, auto next_rate, auto next_sharpness) {
         for (std::size_t step = 0; step < steps; ++step) {
             run.check_stop();
@@ -164,7 +164,7 @@ class Population {
         need_memory();
     }
 
-    /// @throws Error(cancelled), also if a stop comes before there is a best set
+    /// @throws Error(cancelled), also if a stop request comes before there is a best set
     OptimizedRows best() {
         unless_best_is_wanted(run_, [&] { search(); });
         keep_best(1);
@@ -189,11 +189,11 @@ class Population {
         polish();
     }
 
-    /// Requires memory for the kept sets, their successors and the working data of descents.
+    /// Requires memory for the sets kept, for those that follow them and for the data of descents.
     void need_memory() const {
         const auto sets = static_cast<double>(most_sets_);
         const double at_once = std::min(sets, static_cast<double>(run_.thread_count()));
-        constexpr double a_descent = 9;  // doubles per coordinate
+        constexpr double a_descent = 9;  // doubles per coordinate in one descent
         run_.need_memory(8 * static_cast<double>(search_.count * search_.dimension) *
                              (2 * sets + a_descent * at_once),
                          "the search for coordinates");
@@ -202,7 +202,7 @@ class Population {
     static constexpr double starts_share = 0.4;
     static constexpr double polish_share = 0.05;
 
-    /// Number of sets for a budget of `values` objective values, so that each has time to improve.
+    /// Largest number of sets for a budget of `values` objective values: each has time to improve.
     static std::size_t sets_for(double values) {
         return static_cast<std::size_t>(std::clamp(values / 3000, 2.0, 16.0));
     }
@@ -237,7 +237,7 @@ class Population {
         all_.push_back(std::move(given));
     }
 
-    /// Best of several sets, by their value.
+    /// Rows of the best one of several candidates for the start of this index.
     [[nodiscard]] std::vector<double> first_rows(std::size_t start, SplitMix64 draws) const {
         const std::size_t sets = search_.one_start ? 1 : search_.sets_a_start;
         OptimizedRows least{{}, infinity};
@@ -266,7 +266,7 @@ class Population {
         }
     }
 
-    /// Moves about half of the points a little.
+    /// Moves about half of the points, each coordinate by at most search_.hop.
     void disturb(std::vector<double>& rows, SplitMix64& draws) const {
         const double reach = search_.hop * to_unit(draws.next());
         for (std::size_t i = search_.kept; i < search_.count; ++i) {
@@ -301,7 +301,7 @@ class Population {
         if (better(found.front(), all_.front())) all_.front() = std::move(found.front());
     }
 
-    /// Results of descents from several sets; for the i-th, values above enough(i) are useless.
+    /// Results of descents from several sets; for the i-th set, values above enough(i) are useless.
     std::vector<OptimizedRows> descended(std::vector<std::vector<double>> rows,
                                          const Schedule& schedule, auto enough) {
         std::vector<OptimizedRows> found(rows.size());
@@ -328,8 +328,8 @@ class Population {
     Rng rng_;
     std::unique_ptr<Objective> objective_;
     const RunContext& run_;
-    std::size_t most_sets_;  ///< number of sets kept at first
-    RunContext inner_;       ///< context of descents
+    std::size_t most_sets_;  ///< number of sets kept in the first half of the budget
+    RunContext inner_;       ///< context of descents, without progress
     std::uint64_t tasks_ = 0;
     double spent_ = 0;
     double least_ = infinity;

@@ -2,8 +2,8 @@
 //
 // Search over coordinates for points with a minimal objective, by descents along its gradient.
 //
-// Starts    given sets, or the best of several generated ones. A descent follows from each, and the
-//           best are kept: more if the budget allows more objective values.
+// Starts    given sets, or the best of several generated ones. A descent follows from each. The
+//           2 to 16 best results are kept, more if the budget allows more objective values.
 // Hops      half of a set's points are moved and a descent follows; the new set replaces the old
 //           one unless it is worse. The number of sets shrinks over time.
 // Descents  steps that adapt to each coordinate's gradient (Adam), shorter and shorter, while the
@@ -27,8 +27,8 @@ namespace stipple::optimized {
 
 // Starts.
 
-/// Rows (i phi) in one dimension or (i / n, i phi) in two, phi the golden ratio, modulo 1; shifted
-/// at random.
+/// Rows (i phi) in one dimension or (i / n, i phi) in two, modulo 1, with the golden ratio phi;
+/// shifted at random.
 std::vector<double> golden_rows(std::size_t count, std::size_t dimension, SplitMix64& draws);
 
 /// Rows of a randomly shifted lattice of rank 1: of several random vectors, the one with the least
@@ -37,7 +37,7 @@ std::vector<double> lattice_rows(std::size_t count, std::size_t dimension, Split
                                  const RunContext& run);
 
 /// Rows of i / n, shifted at random, followed by the first points of Sobol's sequence with Owen
-/// scrambling; a net if the count is a power of two. Two or more coordinates.
+/// scrambling; a net if the count is a power of two. The dimension is at least 2.
 std::vector<double> net_rows(std::size_t count, std::size_t dimension, SplitMix64& draws);
 
 // Searches.
@@ -63,18 +63,18 @@ struct CoordinateSearch {
     double hop;  ///< largest displacement of a coordinate by a hop
     std::uint64_t seed;
     double budget;           ///< in steps, see Objective::steps()
-    bool one_start = false;  ///< whether all starts are the same
+    bool one_start = false;  ///< whether all starts are the same set
     std::size_t sets_a_start = 16;
 };
 
-/// Runs the search. Progress notes begin with `words` and have the lowest value so far, as
-/// Objective::reported() converts it.
+/// Runs the search. Progress notes begin with `words` and have the latest and the lowest value so
+/// far, as Objective::reported() converts them.
 /// @throws Error(cancelled)
 OptimizedRows search_coordinates(const CoordinateSearch& search, const std::string& words,
                                  const RunContext& run);
 
 /// Finds the lattice with the least objective among all of Korobov's form: points
-/// i (1, g, g^2, ...) / n modulo 1, for every g. In the plane these are all lattices of rank 1
+/// i (1, g, g^2, ...) / n modulo 1, for every g. In the plane these include all lattices of rank 1
 /// whose projections have n distinct coordinates. Takes n / 2 objective values, because g and n - g
 /// give mirror images. Progress and errors are those of search_coordinates().
 OptimizedRows least_lattice(std::size_t count, std::size_t dimension,

@@ -6,8 +6,8 @@
 //     d/dx_ij  =  -2/n f_j'(x_ij) prod_{l != j} f_l(x_il)
 //                 + 2/n^2 sum_k d_1 K_j(x_ij, x_kj) prod_{l != j} K_l(x_il, x_kl),
 //
-// where the slope of |x - y| at x = y is 0. In an even order of points, the first m points p are
-// followed by the point x that minimizes
+// where the slope of |x - y| at x = y is 0. In an even order of points (in_even_order()), the first
+// m points p are followed by the point x that minimizes
 //
 //     2 sum_p K(x, p) + K(x, x) - 2 (m + 1) int K(x, y) dy.
 #include <algorithm>
@@ -74,12 +74,12 @@ constexpr std::size_t lanes = 64;  ///< points per block
 struct Row {
     std::vector<double> factors;    ///< `lanes` factors for each axis
     std::vector<double> before;     ///< products of the factors of the preceding axes
-    std::vector<double> slopes;     ///< sums of slopes times the factors of the other axes
+    std::vector<double> slopes;     ///< along each axis: sums of slope times other axes' factors
     std::array<double, lanes> sum;  ///< sums of the products of all factors
 };
 
-/// Multiplies the products by the factors of one axis between a point at x and a block of others;
-/// `own` is own(x).
+/// Multiplies the products so far by the factors of one axis between a point at x and a block of
+/// other points; `own` is own(x).
 STIPPLE_WIDE void multiply(double x, double own, const Factor& k, const double* __restrict others,
                            const double* __restrict owns, std::size_t size,
                            double* __restrict factors, double* __restrict before,
@@ -94,7 +94,7 @@ STIPPLE_WIDE void multiply(double x, double own, const Factor& k, const double* 
     }
 }
 
-/// Adds the slopes along one axis times the factors of all other axes.
+/// Adds to `slopes` the slopes along one axis times the factors of all other axes.
 STIPPLE_WIDE void add_slopes(double x, double own_slope, const Factor& k,
                              const double* __restrict others, std::size_t size,
                              const double* __restrict factors, const double* __restrict before,
@@ -146,7 +146,7 @@ class L2Objective final : public Objective {
     }
 
   private:
-    static constexpr std::size_t few = 16;  ///< points per part of the sum
+    static constexpr std::size_t few = 16;  ///< points per partial sum
 
     void put_columns(std::span<const double> rows) {
         columns_.resize(n_ * d_);
@@ -158,7 +158,7 @@ class L2Objective final : public Objective {
             }
     }
 
-    /// Returns the i-th point's part of the sum and sets its gradient.
+    /// Returns the i-th point's term of the sum and sets its gradient.
     double add_point(std::size_t i, Row& row, std::span<double> gradient) const {
         row.sum.fill(0);
         std::ranges::fill(row.slopes, 0);
@@ -249,7 +249,7 @@ class Greedy {
     const std::vector<double>& rows_;
     std::size_t d_;
     std::vector<Factor> factors_;
-    std::vector<double> sums_;  ///< sums of kernels with the points already taken
+    std::vector<double> sums_;  ///< of each point's kernels with the points already taken
     std::vector<bool> taken_;
     std::vector<double> means_;
     std::vector<double> own_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Objectives of the search for optimized sets, functions of the coordinates with a gradient; and
-// the result of a search.
+// Objectives of the search for optimized sets, which are functions of the coordinates with a
+// gradient; and the result of a search.
 #pragma once
 
 #include <cstddef>
@@ -20,9 +20,9 @@ namespace stipple::optimized {
 struct OptimizedRows {
     std::vector<double> rows;
     double value = 0;
-    /// True if a stop ended the search before its budget; only for a run that keeps the best.
+    /// True if a stop request ended the search early, in a run that keeps the best set.
     bool stopped = false;
-    bool certain = true;  ///< whether the value is exact, not possibly too small
+    bool certain = true;  ///< whether `value` is exact; otherwise it may be too small
 };
 
 class Objective {
@@ -49,16 +49,16 @@ class Objective {
     /// Elementary steps of one value; a core does about 10^9 per second.
     [[nodiscard]] virtual double steps() const = 0;
 
-    /// Value as reports show it, usually a root of that of value().
+    /// Value for reports: the square root of `value` for L2 objectives, `value` itself for others.
     [[nodiscard]] virtual double reported(double value) const { return value; }
 };
 
-/// Squared L2 discrepancy, over all pairs of points.
+/// Squared L2 discrepancy, summed over all pairs of points.
 std::unique_ptr<Objective> l2_objective(l2::Kind kind, const l2::AxisWeights& weights,
                                         std::size_t count, std::size_t dimension);
 
 /// Returns the rows in an order in which every prefix has a small L2 discrepancy; the first `kept`
-/// keep their positions. O(n^2 d).
+/// rows keep their positions. O(n^2 d).
 std::vector<double> in_even_order(const std::vector<double>& rows, std::size_t dimension,
                                   std::size_t kept, l2::Kind kind, const l2::AxisWeights& weights,
                                   const RunContext& run);
@@ -73,8 +73,8 @@ struct Bounds {
 };
 
 /// Bounds of the largest discrepancy of a family of boxes or, if `empty`, of the volume of the
-/// largest empty box, for points in the unit cube. They are equal unless that takes more than
-/// `work` comparisons.
+/// largest empty box, for points in the unit cube. They are equal unless finding the worst box
+/// takes more than `work` comparisons.
 Bounds bounds_of(const PointSet& points, discrepancy::Family family, bool empty,
                  const RunContext& run, std::uint64_t work = std::uint64_t{1} << 37);
 

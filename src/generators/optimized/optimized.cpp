@@ -12,10 +12,10 @@
 //     n = 1        boxes at the origin: (x, ..., x) with x + x^d = 1; other boxes: the centre.
 //                  Optimal
 //     star, d = 2  a search over the orders of the points by x and by y, each solved exactly
-//                  (planar_order.hpp, order_search.hpp)
-//     others       descents along the gradient from many sets (coordinate_search.hpp), over all
-//                  boxes for the star discrepancy of three axes, over those near the worst for
-//                  other boxes, and over all pairs of points for L2 kinds
+//                  (planar_order.hpp, order_search.hpp); without --from, --initial and --weights
+//     others       descents along the gradient from many sets (coordinate_search.hpp). The value
+//                  covers all boxes for the star discrepancy of two or three axes, boxes near the
+//                  worst for other measures of boxes, and all pairs of points for L2 kinds
 //     --lattice    all lattices of Korobov's form (coordinate_search.hpp)
 //
 // Shape   d <= 6 for boxes, up to 100 for L2 kinds. The search over orders needs 8 n^2 bytes per
@@ -104,7 +104,7 @@ discrepancy::Family family_of(const Values& options) {
     return what == "periodic" ? discrepancy::Family::torus : discrepancy::Family::cube;
 }
 
-/// L2 kind that --order makes small for prefixes.
+/// L2 kind whose discrepancy --order makes small for every prefix.
 l2::Kind order_kind(const Values& options) {
     const std::string what = options[objective];
     if (is_l2(options)) return kind_of(what.substr(3));
@@ -156,7 +156,7 @@ void check_weights(const Values& options, std::size_t dimension) {
             fail(ErrorKind::usage, "--weights: {} is outside (0, 1000]", format_number(weight));
 }
 
-/// Checks --lattice: only measures on the torus do not depend on the lattice's shift.
+/// Checks --lattice: only measures on the torus are independent of the lattice's shift.
 void check_lattice(const Values& options) {
     if (!options[lattice]) return;
     const std::string what = options[objective];
@@ -206,10 +206,10 @@ std::unique_ptr<Objective> make_objective(const Plan& plan, const Values& option
     return box_objective(family_of(options), what == "dispersion", weights, n, d);
 }
 
-/// Returns the rows of the i-th start.
+/// Function that returns the rows of the i-th start.
 using Start = std::function<std::vector<double>(std::uint64_t, SplitMix64&)>;
 
-/// Rows of a file, followed by random ones.
+/// Start with the rows of a file, followed by random rows.
 Start start_from(const PointSet& points, const Plan& plan, std::size_t fixed) {
     std::vector<double> given(points.flat().begin(), points.flat().end());
     for (std::size_t i = fixed * plan.dimension; i < given.size(); ++i)
@@ -232,8 +232,8 @@ Start start_without_file(const Plan& plan, const Values& options, const RunConte
                 generate(spec, {.count = n, .dimension = d, .seed = seed + i}, {}, quiet);
             return std::vector<double>(points.flat().begin(), points.flat().end());
         };
-    // Alternates between lattices and other sets, because the count decides which of them end
-    // lower. For the periodic discrepancy in the plane, no start is a lattice.
+    // Alternates between lattices and other sets, because the count decides which of them lead to
+    // lower values. For the periodic discrepancy in the plane, no start is a lattice.
     const bool lattices = d > 2 || (d == 2 && options[objective] != "periodic");
     return [=, quiet = silent(run)](std::uint64_t i, SplitMix64& draws) {
         if (lattices && i % 2 == 0) return lattice_rows(n, d, draws, quiet);
@@ -241,13 +241,13 @@ Start start_without_file(const Plan& plan, const Values& options, const RunConte
     };
 }
 
-/// Steps of one value of an L2 objective.
+/// Approximate steps (see Objective::steps) of one value of an L2 objective.
 double l2_steps(const Plan& plan) {
     const auto n = static_cast<double>(plan.count);
     return n * n * static_cast<double>(plan.dimension) / 3;
 }
 
-/// Default budget in steps; for few points smaller, a fixed number of values per point.
+/// Default budget in steps; at most 10^6 objective values per point, so less for few points.
 double usual_budget(const Plan& plan, const Values& options) {
     const double most =
         1e6 * static_cast<double>(plan.count) * make_objective(plan, options)->steps();
@@ -295,8 +295,8 @@ PointSet projection(const PointSet& points, std::uint64_t axes) {
 }
 
 /// Bounds of the weighted star discrepancy: the maximum, over sets of axes, of the product of their
-/// weights and the star discrepancy of the projection on them. A projection on fewer axes has no
-/// larger discrepancy, so some need no search.
+/// weights and the star discrepancy of the projection on them. Removing axes never increases the
+/// discrepancy, so some projections need no search.
 Bounds weighted_star(const PointSet& points, const std::vector<double>& weights, std::uint64_t work,
                      const RunContext& run) {
     const std::size_t d = weights.size();
@@ -307,7 +307,7 @@ Bounds weighted_star(const PointSet& points, const std::vector<double>& weights,
             if ((axes >> j & 1) != 0) times *= weights[j];
         return times;
     };
-    std::vector<double> upper(all + 1, 1);  // bounds of the projections' discrepancies
+    std::vector<double> upper(all + 1, 1);  // upper bounds by sets of axes
     Bounds worst{0, 0};
     for (std::uint64_t axes = all; axes > 0; --axes) {
         for (std::size_t j = 0; j < d; ++j)
@@ -365,7 +365,7 @@ constexpr std::array published_stars = std::to_array<PublishedStar>(
      {380, .006375, false}, {420, .005625, false}, {500, .005086, false}, {580, .003772, false},
      {660, .003600, false}, {780, .003104, false}, {900, .002957, false}, {1020, .002450, false}});
 
-/// Least published value for `count` points; nullopt if the table has none.
+/// Published value for `count` points; nullopt if the table has none or the dimension is not 2.
 std::optional<PublishedStar> published_star(std::uint64_t count, std::size_t dimension) {
     const auto* const found = std::ranges::find(published_stars, count, &PublishedStar::count);
     if (dimension != 2 || found == published_stars.end()) return {};
@@ -397,7 +397,7 @@ void record(PointSet& points, const Plan& plan, const Values& options, const Bou
     }
 }
 
-/// Optimal set in one dimension.
+/// Optimal set in one dimension: for the dispersion if `empty`, else for the other measures.
 std::vector<double> on_the_line(std::size_t n, bool empty, const RunContext& run) {
     constexpr std::size_t often = 1U << 20;
     std::vector<double> rows;
@@ -410,9 +410,9 @@ std::vector<double> on_the_line(std::size_t n, bool empty, const RunContext& run
     return rows;
 }
 
-/// Coordinate x of the best single point for boxes at the origin. There, the largest empty box has
-/// the volume x, and the closed box at the point a volume too small by 1 - x^d; both are equal if x
-/// + x^d = 1.
+/// Coordinate x of the best single point (x, ..., x) for boxes at the origin. Its largest empty box
+/// has the volume x, and the closed box that ends at it has a volume below its share of points, 1,
+/// by 1 - x^d. The two discrepancies are equal if x + x^d = 1.
 double coordinate_for_star(std::size_t dimension) {
     double low = 0;
     double high = 1;
@@ -432,8 +432,8 @@ std::vector<double> known_rows(const Plan& plan, const Values& options, const Ru
     return std::vector<double>(plan.dimension, x);
 }
 
-/// Run with as many threads as memory allows. A search over all boxes in two or three dimensions
-/// holds a plane of n^2 counts per thread, for each set in the search.
+/// Run context with only as many threads as memory allows. For the star discrepancy in two or three
+/// dimensions, each set that is searched holds n^2 counts, a plane of boxes, per thread.
 RunContext fitting(const Plan& plan, const Values& options, const RunContext& run) {
     constexpr std::uint64_t most = std::uint64_t{1} << 16;
     if (plan.count > most)

@@ -20,17 +20,17 @@ using Ranks = PlanarOrder::Ranks;
 
 const double golden = (std::sqrt(5.0) - 1) / 2;
 
-constexpr double on_cycle = 0.35;    ///< fraction of the swaps that are tried on the critical cycle
-constexpr double patience = 20;      ///< useless swaps per point that end a descent
-constexpr double kick_height = 0.2;  ///< largest relative rise of the level by a kick
+constexpr double on_cycle = 0.35;  ///< fraction of the swaps that are tried on the critical cycle
+constexpr double patience = 20;  ///< a descent ends after this many swaps per point without a gain
+constexpr double kick_height = 0.2;     ///< largest relative rise of the level by a kick
 constexpr std::size_t kick_swaps = 20;  ///< largest number of swaps in a kick
-constexpr double solution = 30;         ///< steps of one solution, divided by n^2
+constexpr double solution = 30;         ///< steps to solve one order, divided by n^2
 
 /// State of a descent: an order and its level.
 struct Descent {
     Ranks ranks;
     double level = std::numeric_limits<double>::infinity();
-    bool over = false;              ///< true after many swaps without a gain
+    bool over = false;              ///< true if many swaps in a row gained nothing
     std::vector<double> rows = {};  ///< points with that level; empty unless the run keeps the best
 };
 
@@ -44,7 +44,7 @@ bool better(const Descent& a, const Descent& b) { return a.level < b.level; }
 
 double unit(SplitMix64& draws) { return to_unit(draws.next()); }
 
-/// Ranks of points with distinct coordinates.
+/// For each point in the order of x, its rank by y; all coordinates are distinct.
 Ranks order_of(const std::vector<double>& x, const std::vector<double>& y) {
     const auto sorted = [](const std::vector<double>& values) {
         return order_by(values.size(), [&](std::uint32_t i) { return values[i]; });
@@ -58,7 +58,7 @@ Ranks order_of(const std::vector<double>& x, const std::vector<double>& y) {
     return ranks;
 }
 
-/// Order of multiples of the golden section modulo 1, shifted at random.
+/// Order of (i, i phi + s mod 1), phi the golden section, with a random shift s.
 Ranks rotation(std::size_t n, SplitMix64& draws) {
     std::vector<double> x;
     std::vector<double> y;
@@ -71,9 +71,9 @@ Ranks rotation(std::size_t n, SplitMix64& draws) {
     return order_of(x, y);
 }
 
-/// Order of the points of the golden lattice k t (a + b / golden), (k / t) (a - b golden) in the
-/// unit square, with random t and shift. The square holds n points on average; empty unless it
-/// holds exactly n.
+/// Order of the points k t (a + b / golden), (k / t) (a - b golden) of the golden lattice, a and b
+/// integers, that are in the unit square, for random t and shift. The square holds n points on
+/// average; returns an empty order unless it holds exactly n.
 Ranks lattice_cut(std::size_t n, SplitMix64& draws) {
     const double k = std::sqrt(1 / (static_cast<double>(n) * std::sqrt(5.0)));
     const double t = golden + unit(draws) * (1 / golden - golden);
@@ -81,7 +81,7 @@ Ranks lattice_cut(std::size_t n, SplitMix64& draws) {
     const double up = unit(draws);
     const double wide = 1 / (k * t);
     const double high = t / k;
-    // a + b / golden in [-right, 1 - right) wide, a - b golden in [-up, 1 - up) high
+    // a + b / golden is in [-right, 1 - right) wide, a - b golden in [-up, 1 - up) high
     const double spread = golden + 1 / golden;
     const auto first =
         static_cast<std::int64_t>(std::floor((-right * wide - (1 - up) * high) / spread));
@@ -130,8 +130,8 @@ void kick(PlanarOrder& order, std::size_t n, SplitMix64& draws) {
         made += static_cast<std::size_t>(order.attempt(any_swap(n, draws), limit));
 }
 
-/// Continues a descent for at most `steps` steps; perturbs it first if it has converged. Returns
-/// the steps taken. @throws Error(cancelled)
+/// Continues a descent for at most `steps` steps; first perturbs its order by a kick if it is over.
+/// Returns the steps taken. @throws Error(cancelled)
 double go_on(Descent& descent, SplitMix64 draws, double steps, const RunContext& run) {
     constexpr double equal = 1 + 1e-12;
     const std::size_t n = descent.ranks.size();
@@ -162,7 +162,7 @@ class OrderSearch {
     OrderSearch(std::size_t n, std::uint64_t seed, double budget, const RunContext& run)
         : n_(n), rng_(seed), budget_(budget), run_(run), inner_(silent(run)) {}
 
-    /// @throws Error(cancelled), also if a stop comes before there is a best order
+    /// @throws Error(cancelled), also if a stop request comes before there is a best order
     Descent best() {
         make_starts();
         std::vector<Descent> all;
@@ -186,7 +186,7 @@ class OrderSearch {
     }
 
   private:
-    /// Returns a start for use after all others: one of them, changed by up to n swaps.
+    /// Returns a start to use after all of starts_: a random one of them, changed by up to n swaps.
     Descent another_start() {
         SplitMix64 own = draws();
         Ranks ranks = starts_[own.below(starts_.size())].ranks;
@@ -260,7 +260,7 @@ class OrderSearch {
     Rng rng_;
     double budget_;
     const RunContext& run_;
-    RunContext inner_;  ///< context of descents
+    RunContext inner_;  ///< context of descents, without progress
     std::uint64_t tasks_ = 0;
     double spent_ = 0;
     double least_ = 0;
@@ -274,7 +274,7 @@ optimized::OptimizedRows least_star_discrepancy(std::size_t n, std::uint64_t see
     const auto size = static_cast<double>(n);
     const double bytes = 8 * size * size + 200 * size;
     run.need_memory(bytes, "the search for an order");
-    RunContext own = run;  // with as many threads as memory allows
+    RunContext own = run;  // with only as many threads as memory allows
     own.threads = static_cast<unsigned>(std::min(static_cast<double>(run.memory_left()) / bytes,
                                                  static_cast<double>(run.thread_count())));
     Descent best = n > 1 ? OrderSearch(n, seed, budget, own).best() : Descent{{0}};

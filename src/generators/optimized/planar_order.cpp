@@ -14,8 +14,8 @@ namespace stipple {
 namespace {
 
 constexpr double slack = 1e-13;      ///< relative tolerance of bounds
-constexpr std::size_t lanes = 64;    ///< bounds compared at once
-constexpr std::uint64_t entry = 32;  ///< steps charged for starting a row
+constexpr std::size_t lanes = 64;    ///< bounds tested at once
+constexpr std::uint64_t entry = 32;  ///< steps charged for starting a row of bounds
 
 /// Writes the indices k < size with (counts[k] - level) * scale > values[k] * reach to `hits` and
 /// returns their number. With negated level, scale and reach it finds those with (counts[k] +
@@ -85,7 +85,7 @@ PlanarOrder::Ranks PlanarOrder::ranks() const {
 }
 
 std::vector<double> PlanarOrder::points() const {
-    const double one = x_[n_ + 1];  // the scale, as in normalise()
+    const double one = x_[n_ + 1];  // divides x, multiplies y, as in normalise()
     std::vector<double> rows;
     for (std::size_t i = 1; i <= n_; ++i)
         for (const double value : {x_[i] / one, y_[rank_[i]] * one})
@@ -148,7 +148,7 @@ void PlanarOrder::put(Node node, double value) {
     }
 }
 
-/// Moves a node to a bound set by another node. True if that closes a cycle.
+/// Moves a node to a bound that another node sets. Returns true if that closes a cycle of bounds.
 bool PlanarOrder::move(Node node, Node from, bool by_order, double value) {
     if (trying_) undo_.push_back({node, this->value(node)});
     put(node, value);
@@ -180,7 +180,7 @@ PlanarOrder::Node PlanarOrder::pop() {
     return node;
 }
 
-/// Starts a new era: forgets all entries of from_, the node that bounds each node.
+/// Starts a new era: invalidates all entries of from_, the node that bounds each node.
 void PlanarOrder::begin() {
     if (++era_ != 0) return;
     std::ranges::fill(moved_in_, 0);
@@ -224,7 +224,7 @@ bool PlanarOrder::relax_y(std::size_t j, Node node) {
                   : move(0, node, true, 1 / y_[j]);
 }
 
-/// Moves coordinates until all bounds hold, a cycle of bounds closes or the attempt is given up.
+/// Moves coordinates until all bounds hold, a cycle of bounds closes or an attempt is given up.
 PlanarOrder::Outcome PlanarOrder::relax() {
     constexpr std::uint64_t turns_at_a_time = 64;
     while (first_ != last_) {
@@ -305,7 +305,7 @@ void PlanarOrder::raise() {
     begin();
 }
 
-/// Raises the level until points exist; false if it exceeds the limit or the attempt is given up.
+/// Raises the level until the bounds have a solution; false if it exceeds the limit or gives up.
 bool PlanarOrder::settle(double limit) {
     for (;;) {
         const Outcome outcome = relax();
@@ -315,7 +315,7 @@ bool PlanarOrder::settle(double limit) {
     }
 }
 
-/// Lowers the level to the smallest one at which points exist.
+/// Lowers the level to the smallest one at which the bounds have a solution.
 void PlanarOrder::lower() {
     for (double step = 0.004;; step *= 2) {
         level_ *= std::max(1 - step, 0.5);
@@ -336,7 +336,7 @@ void PlanarOrder::lower() {
 void PlanarOrder::tighten(const Swap& swap, bool more) {
     const auto [by_x, p] = swap;
     if (by_x == more) return push(static_cast<Node>(by_x ? p : n_ + p + 1));
-    // In this case, several coordinates of the other axis bound a single one.
+    // Otherwise, several coordinates of one axis bound a single coordinate of the other.
     const auto [low, high] =
         by_x ? std::minmax(rank_[p], rank_[p + 1]) : std::minmax(place_[p], place_[p + 1]);
     const auto n = static_cast<double>(n_);

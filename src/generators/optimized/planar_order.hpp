@@ -9,13 +9,13 @@
 //     open    x_i y_j <= (c(i-1, j-1) + F) / n      of the boxes [0, x_i) x [0, y_j)
 //     closed  x_i y_j >= (c(i, j) - F) / n          of the boxes [0, x_i] x [0, y_j]
 //
-// In the logarithms of x and of 1 / y each of these bounds a difference, so points exist exactly if
-// no cycle of bounds is contradictory. The Bellman-Ford method finds points or such a cycle. The F
-// at which the cycle becomes consistent is a lower bound. F is raised to it until points exist;
-// then F is the least of the order, and the last cycle proves it.
+// In the logarithms of x and of 1 / y each of these bounds a difference, so a solution exists
+// exactly if no cycle of bounds is contradictory. The Bellman-Ford method finds a solution or such
+// a cycle. The F at which the cycle becomes consistent is a lower bound. F is raised to it until a
+// solution exists; then F is the least value of the order, and the last cycle proves it.
 //
-// Cost    a solution takes some 30 n^2 steps (comparisons of a bound): 0.2 ms for n = 100, 20 ms
-//         for n = 1000 on one core; 8 n^2 bytes. A swap takes much less.
+// Cost    a first solution takes some 30 n^2 steps (comparisons of a bound): 0.2 ms for n = 100, 20
+//         ms for n = 1000 on one core; 8 n^2 bytes. The solution after a swap takes much less.
 // Promise the relative error of the value is at most 1e-12, and the value the same on any machine.
 // Source  the constraints are those of F. Clement, C. Doerr, K. Klamroth, L. Paquete,
 //         arXiv:2311.17463; R. Bellman, Quart. Appl. Math. 16 (1958) 87-90.
@@ -43,7 +43,7 @@ class PlanarOrder {
         std::size_t at;
     };
 
-    /// Finds the level of the order. @throws Error(cancelled)
+    /// Finds the level of the order by a first solution. @throws Error(cancelled)
     PlanarOrder(const Ranks& ranks, const RunContext& run);
 
     [[nodiscard]] Ranks ranks() const;
@@ -54,16 +54,16 @@ class PlanarOrder {
     /// Points that attain the level, as rows in the order of x; in [0, 1).
     [[nodiscard]] std::vector<double> points() const;
 
-    /// A swap that changes the count of a box on the critical cycle; nullopt if the box is at the
-    /// rim.
+    /// A random swap that may change the count of a box on the critical cycle; nullopt if that box
+    /// ends at the rim.
     std::optional<Swap> critical_swap(SplitMix64& draws) const;
 
     /// Makes the swap if the level is then at most `limit`; returns whether it did. Gives up if
-    /// more than n coordinates move. A critical swap must lower the level of the cycle that it
-    /// changes.
+    /// more than n coordinates move. If `critical`, the swap must also lower the level at which the
+    /// current cycle becomes consistent.
     bool attempt(const Swap& swap, double limit, bool critical = false);
 
-    /// Comparisons of bounds so far.
+    /// Number of comparisons of bounds so far.
     [[nodiscard]] std::uint64_t steps() const { return steps_; }
 
   private:
@@ -72,7 +72,7 @@ class PlanarOrder {
     /// Index of a coordinate: i for x_i, n + j for y_j, 0 for the common value 1 of x_{n+1} and
     /// y_{n+1}.
     using Node = std::uint32_t;
-    struct Bound {  ///< bound of the box with the count c(i, j)
+    struct Bound {  ///< bound set by the box with the count c(i, j)
         bool open;
         std::size_t i;
         std::size_t j;
@@ -115,11 +115,11 @@ class PlanarOrder {
     std::vector<double> x_;
     std::vector<double> y_;
     double level_ = 0;
-    std::vector<Bound> cycle_;  ///< proves that no lower level is possible
+    std::vector<Bound> cycle_;  ///< critical cycle: proves that no lower level is possible
     std::vector<Bound> saved_;
 
     std::vector<Node> from_;              ///< for a node moved in this era: the node that bounds it
-    std::vector<std::uint8_t> by_order_;  ///< for the same: whether it is bounded as a neighbour
+    std::vector<std::uint8_t> by_order_;  ///< whether that is its neighbour in the order
     std::vector<std::uint32_t> moved_in_;
     std::uint32_t era_ = 0;
     Node met_ = 0;  ///< node at which a cycle closed
@@ -127,7 +127,7 @@ class PlanarOrder {
     std::size_t first_ = 0;
     std::size_t last_ = 0;
     std::vector<std::uint8_t> queued_;
-    std::vector<std::uint32_t> hits_;  ///< violated bounds of a row
+    std::vector<std::uint32_t> hits_;  ///< indices of the violated bounds of a row
 
     struct Moved {
         Node node;

@@ -80,7 +80,7 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
 
     /// A point whose disk overlaps the tile.
     struct Near {
-        Point place;  ///< from the tile's first cell, in cells
+        Point place;  ///< from the tile's first cell, in cell sides
         Point at;
         Cell cell;
     };
@@ -150,7 +150,7 @@ class BoxSampler {
         }
     }
 
-    /// Throws darts at the open sub-cells of a gap; adds the parts that stay open to the workspace.
+    /// Throws darts at the open sub-cells of a gap; adds gaps around these to the workspace.
     template <class Real>
     void throw_at(const T& tile, const Gap<D>& gap, const PoissonCounts& counts, std::uint64_t key,
                   Workspace& work, const NearDisks<D, Real>& near,

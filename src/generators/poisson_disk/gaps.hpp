@@ -58,8 +58,8 @@ inline std::size_t nth_bit(SubcellBits bits, std::size_t n) {
 
 template <std::size_t D>
 struct Gap {
-    std::array<double, D> corner;  ///< lowest corner relative to the cell's, in cells
-    std::uint16_t place;           ///< number of the cell in its tile
+    std::array<double, D> corner;  ///< from the cell's lowest corner, in units of the cell's sides
+    std::uint16_t place;           ///< index of the cell in its tile
     std::uint8_t level;            ///< the side is 2^-level of the cell's
 
     [[nodiscard]] double side() const { return 1 / static_cast<double>(std::uint64_t{1} << level); }
@@ -132,7 +132,7 @@ void narrow(const Gap<D>& gap, SubcellBits open, bool may_split, std::vector<Gap
     out.push_back(smaller);
 }
 
-/// Random place in one of the `count` open sub-cells, from the corner of the gap's cell, in cells.
+/// Random point of one of the `count` open sub-cells, relative to the cell's corner, in cell sides.
 template <std::size_t D>
 std::array<double, D> place_in(const Gap<D>& gap, SubcellBits open, std::size_t count,
                                SplitMix64& mixer) {

@@ -3,8 +3,8 @@
 // Grid of the cells that hold a maximal disk set: boxes with a diagonal of at most a radius, so
 // that each holds at most one point. Cells are grouped into tiles, which are processed as a whole.
 //
-// "In radii" below means: relative to the corner of a cell, in units of the radius. Such numbers
-// are small, so that floats are accurate enough.
+// "In radii" below means: relative to the corner of a cell, in units of the radius. Such
+// coordinates are small, so that floats are accurate enough.
 //
 // Shape   D directions, m_k cells along each, fewer than 2^32 in all.
 #pragma once
@@ -98,7 +98,7 @@ template <std::size_t D>
 struct Task {
     const Grid<D>& grid;
     double slack;            ///< bound on rounding errors of distances in doubles, in radii
-    std::uint64_t expected;  ///< number of points
+    std::uint64_t expected;  ///< approximate number of points
     std::uint64_t seed;
 };
 

@@ -11,7 +11,8 @@
 namespace stipple::poisson_disk {
 namespace {
 
-/// True if there are five cells or more along every direction and a radius spans two of them.
+/// Whether the samplers of plane/ and space/ apply: in 2-D and 3-D, for five cells or more along
+/// each direction, if a radius spans two of them.
 bool is_fine(const BoxSpace& space, const std::vector<double>& cells, double radius) {
     bool fine = cells.size() <= 3;
     for (std::size_t k = 0; k < cells.size(); ++k) {

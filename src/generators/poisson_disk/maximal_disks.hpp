@@ -17,10 +17,10 @@
 // Shape   d = 2 ... 6; any box; r up to its diagonal.
 // Cost    O(n) time for fixed d: on one core 0.4 us a point (d = 2), 2 us (3), 0.4 ms (4), 2 ms
 //         (5), 30 ms (6). Memory: 75 bytes a point (d = 2), 230 (3).
-// Promise squared_distance (math/neighbors/spaced_points.hpp) of the returned numbers is at least
-//         r^2 for every pair. Every place of the box is nearer than r to a point, except for gaps
-//         that float64 can hardly resolve: below 2^-48 of the largest coordinate. Points are in
-//         [low, high).
+// Promise squared_distance (math/neighbors/spaced_points.hpp) of returned coordinates is at least
+//         r^2 for every pair. Every position in the box is nearer than r to a point, except in
+//         gaps that float64 can hardly resolve: below 2^-48 of the largest coordinate. Points are
+//         in [low, high).
 // Source  the process is that of R. L. Cook, ACM Trans. Graph. 5 (1986) 51-72,
 //         doi:10.1145/7529.8927; gaps after M. S. Ebeida, S. A. Mitchell, A. Patney,
 //         A. A. Davidson, J. D. Owens, Comput. Graph. Forum 31 (2012) 785-794,

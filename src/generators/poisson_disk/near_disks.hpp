@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The few disks near a place, and the sub-cells of a gap that they cover. Lengths are in radii: a
+// The few disks near a point, and the sub-cells of a gap that they cover. Lengths are in radii: a
 // disk around p covers x if sum_k (x_k - p_k)^2 < 1.
 //
-// On a line of sub-cells along the first direction, a disk covers those between two ends, which
-// take one square root:
+// On a line of sub-cells along the first direction, a disk covers the sub-cells between two ends.
+// Computing both takes one square root:
 //
 //     |x_1 - p_1| < sqrt(1 - sum_{k > 1} y_k^2),  y_k the distance from p_k to the line's far face.
 //
@@ -26,7 +26,7 @@
 
 namespace stipple::poisson_disk {
 
-/// Rounding errors of distances to a rim in floats, for places a few radii from zero.
+/// Bound on rounding errors of floats in distances to a rim, for coordinates of a few radii.
 inline constexpr float float_slack = 4e-6F;
 
 /// Centres of disks, one direction after the other, padded with eight far ones.
@@ -72,7 +72,7 @@ class NearDisks {
 
 enum class Hit : std::uint8_t { no, yes, unsure };
 
-/// Whether a disk covers the place.
+/// Whether a disk covers `place`, a point in radii.
 template <std::size_t D, class Real>
 Hit hits(const NearDisks<D, Real>& near, const std::array<Real, D>& place, Real slack);
 
@@ -91,7 +91,7 @@ struct SubcellGrid {
     }
 };
 
-/// Returns the sub-cells that no single disk covers, and collects the disks that overlap the gap.
+/// Returns the sub-cells that no single disk covers; stores the disks over the gap in `reaching`.
 template <std::size_t D, class Real>
 SubcellBits uncovered(const NearDisks<D, Real>& near, const SubcellGrid<D, Real>& grid, Real slack,
                       NearDisks<D, Real>& reaching);

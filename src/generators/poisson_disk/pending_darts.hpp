@@ -21,7 +21,7 @@ template <std::size_t D>
 struct PendingDart {
     std::array<double, D> at;
     std::uint32_t time;   ///< within the round
-    std::uint16_t place;  ///< number of its cell in the tile
+    std::uint16_t place;  ///< index of its cell in the tile
 
     /// Several threads may read and set the status at once: all set the same value.
     [[nodiscard]] Status status() const {
@@ -47,7 +47,7 @@ class PendingDarts {
 
     static constexpr int side = 1 << side_bits;
 
-    /// Number of a cell in its tile.
+    /// Index of a cell in its tile.
     static std::uint16_t place_of(const Cell& cell) {
         std::uint32_t place = 0;
         for (std::size_t k = 0; k < D; ++k)
@@ -73,7 +73,7 @@ class PendingDarts {
     }
 
     [[nodiscard]] const std::vector<Dart>& all() const { return all_; }
-    /// Whether these are the darts of the given round.
+    /// Whether the darts are those of the given round.
     [[nodiscard]] bool of(std::uint64_t round) const { return round_ == round; }
 
     /// Calls visit(dart) for the darts of all blocks that overlap the range of cells low..high,

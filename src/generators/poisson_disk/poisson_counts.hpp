@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Number of darts that a round throws at a piece of a box: one draw from a Poisson distribution for
-// the whole piece.
+// Number of darts that a round throws at a region of a box, such as a gap: one draw from a Poisson
+// distribution for the whole region.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace stipple::poisson_disk {
 
-/// Poisson-distributed counts of darts, for pieces of any number of equal parts. Those of up to
-/// `most` parts are drawn fastest.
+/// Poisson-distributed counts of darts on regions that consist of any number of equal parts, such
+/// as sub-cells. Counts on up to `most` parts are drawn fastest.
 class PoissonCounts {
   public:
     /// @param mean number of darts per part; finite
@@ -24,7 +24,7 @@ class PoissonCounts {
         return mean_ * static_cast<double>(parts);
     }
 
-    /// Number of darts on that many parts.
+    /// Draws the number of darts on a region of `parts` parts.
     [[nodiscard]] std::uint64_t draw(std::size_t parts, SplitMix64& mixer) const {
         const double u = to_unit(mixer.next());
         if (parts < none_.size()) {
@@ -40,7 +40,7 @@ class PoissonCounts {
     [[nodiscard]] std::uint64_t in_portions(double u, std::size_t parts, SplitMix64& mixer) const;
 
     double mean_;
-    std::vector<double> none_;  ///< probability of no dart, by the number of parts
+    std::vector<double> none_;  ///< probability of no dart, indexed by the number of parts
 };
 
 }  // namespace stipple::poisson_disk

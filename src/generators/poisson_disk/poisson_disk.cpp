@@ -13,9 +13,9 @@
 //                sets of darts fail, which may happen with a few points only, the surplus of the
 //                best set is removed: then the set is not maximal, as a note reports.
 //
-// In 2-D radii may vary (generators/poisson_disk/varying/varied_disks.hpp). Two points keep the
-// smaller of their radii, and every place where points may be has a point nearer than the smaller
-// of its radius and the point's:
+// In 2-D radii may vary (generators/poisson_disk/varying/varied_disks.hpp). Two points x and y keep
+// the distance min(r(x), r(y)), and every position x at which points are allowed has a point y that
+// is nearer than that:
 //
 // --density     r(x) = radius * sqrt(largest density / density(x)), no points where it is 0.
 // --radius-map  r(x) as given; scaled to a minimum radius with --radius, --count and --n-approx.
@@ -25,9 +25,9 @@
 //         bounded.
 // Cost    see maximal_disks.hpp; --count takes about ten runs.
 // Promise sum_k d_k^2 >= radius^2 for every pair, in float64, from the coordinates as stored;
-//         d_k = |x_k - y_k|, on the torus min(d_k, side_k - d_k). No place of the box is as far as
-//         the radius from all points, unless a note reports that some were removed. The
-//         provenance has the radius.
+//         d_k = |x_k - y_k|, on the torus min(d_k, side_k - d_k). Every position in the box
+//         is nearer than the radius to a point, unless a note reports that points were removed.
+//         The provenance has the radius.
 // Source  R. L. Cook, ACM Trans. Graph. 5 (1986) 51-72, doi:10.1145/7529.8927 (the process).
 
 #include <cmath>
@@ -89,7 +89,7 @@ constexpr Param<Choice> order{
     .choices = "random|progressive",
     .help = "Order of the points; progressive: for every n, the first n points are well spread"};
 
-/// Whether radii vary, or some places are without points.
+/// Whether radii vary, or points are not allowed everywhere.
 bool is_varied(const Values& options) {
     return options.given(density) || options.given(radius_map) || options.given(mask);
 }
@@ -129,7 +129,7 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-/// Radius for which expected_disks is the wanted number.
+/// Radius for which expected_disks() is `wanted`.
 double typical_radius(const BoxSpace& space, double wanted) {
     double low = 0;
     double high = space.largest_distance();
@@ -199,8 +199,8 @@ Packing pack(const BoxSpace& space, const Plan& plan, const Values& options,
         return {maximal_disks(space, r, r, plan.seed, run), r};
     }
     if (plan.count == 1) return single(space, plan.seed);
-    // If the radius were the largest distance in the box, a disk would leave only isolated places
-    // open, which rounding may hide.
+    // If the radius were the largest distance in the box, a disk would leave only isolated points
+    // uncovered, which rounding may hide.
     const double most = space.largest_distance();
     const double typical = typical_radius(space, static_cast<double>(plan.count));
     const SearchGoal goal{plan.count, plan.dimension, std::min(typical, 0.99 * most), most};

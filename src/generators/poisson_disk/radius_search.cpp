@@ -19,8 +19,8 @@ class Search {
     Search(const SearchGoal& goal, const Pack& pack, const RunContext& run)
         : goal_(goal), pack_(pack), run_(run), dimension_(goal.dimension), count_(goal.count) {}
 
-    /// Tries the streams of a seed one after the other until one gives exactly the count. If none
-    /// does, removes the surplus of the set with the largest radius, with a note.
+    /// Tries several random streams of a seed one after the other until one gives exactly the
+    /// count. If none does, removes the surplus of the set with the largest radius, with a note.
     Packing find(std::uint64_t seed) {
         constexpr std::uint64_t streams = 8;
         for (std::uint64_t stream = 0; stream < streams; ++stream)
@@ -50,8 +50,8 @@ class Search {
         return false;
     }
 
-    /// Makes the points for a radius; keeps them if their number is `count`, or the best so far.
-    /// Returns their number.
+    /// Makes the points for a radius. Keeps them if their number is `count`, or if it is larger and
+    /// the radius is the largest of such sets so far. Returns their number.
     std::uint64_t attempt(double r, std::uint64_t seed) {
         constexpr double typical = 8;  // typical number of tries
         cells_ = std::min(cells_, r);
@@ -64,7 +64,7 @@ class Search {
         return found;
     }
 
-    /// Radius that should lead to the count; if that is outside the known bounds, one between them.
+    /// Radius that should lead to the count; a middle one if that is outside the known bounds.
     [[nodiscard]] double next(double r, std::uint64_t found) const {
         const double ratio = static_cast<double>(found) / static_cast<double>(count_);
         const double step = (ratio - 1) / static_cast<double>(dimension_);
@@ -95,8 +95,8 @@ class Search {
     std::uint64_t count_;
     double cells_ = 0;   ///< radius that cells are made for, if possible the same for all tries
     double enough_ = 0;  ///< last radius that left enough points
-    double few_ = 0;     ///< last radius that left too few
-    double done_ = 0;    ///< estimated fraction of the work
+    double few_ = 0;     ///< last radius that left too few points
+    double done_ = 0;    ///< estimated fraction of the work that is done
     Packing best_;
 };
 

@@ -12,7 +12,7 @@
 
 namespace stipple::poisson_disk {
 
-/// Points, and the distance that every two of them keep.
+/// Points, and a lower bound of the distance between any two of them.
 struct Packing {
     Rows rows = {};
     double radius = 0;
@@ -27,8 +27,8 @@ using Pack = std::function<Rows(double radius, double cell_radius, std::uint64_t
 struct SearchGoal {
     std::uint64_t count;
     std::size_t dimension;
-    double typical;  ///< radius that gives about the count
-    double largest;  ///< radius that leaves one point
+    double typical;  ///< radius that gives about `count` points
+    double largest;  ///< radius that leaves a single point
 };
 
 /// Returns exactly goal.count points: a maximal set, unless a note reports otherwise.

@@ -35,7 +35,7 @@ namespace stipple::poisson_disk {
 template <std::size_t D>
 struct Addition {
     std::array<double, D> at;
-    TileCell<D> cell;  ///< from the tile's first cell
+    TileCell<D> cell;  ///< offset from the tile's first cell
     bool own;          ///< whether the point belongs to the tile's points()
 };
 
@@ -71,8 +71,8 @@ class Tile {
     [[nodiscard]] int size(std::size_t k) const { return size_[k]; }
     [[nodiscard]] std::vector<double>& points() { return points_; }
 
-    /// Sets `at` to the coordinates of a place in a cell, given in cells; false if one is rounded
-    /// up to a face.
+    /// Sets `at` to the point `place` of a cell, given in cell sides from the cell's corner; false
+    /// if a coordinate is rounded up to a face of the box.
     [[nodiscard]] bool locate(const Grid<D>& grid, const Cell& cell, const Point& place,
                               Point& at) const {
         bool inside = true;
@@ -83,7 +83,7 @@ class Tile {
         return inside;
     }
 
-    /// Place of a point in its cell, in cells.
+    /// Position of a point in its cell, in cell sides from the cell's corner.
     /// @param cell the point's cell, relative to the tile's first; on the torus possibly beyond the
     /// box
     [[nodiscard]] Point in_cell(const Grid<D>& grid, const Point& p, const Cell& cell) const {
@@ -98,7 +98,7 @@ class Tile {
         return place;
     }
 
-    /// Slightly more points than typical for the tile and `more` cells beyond each face.
+    /// Slightly more points than are typical for the tile with `more` cells beyond each face.
     [[nodiscard]] std::size_t typical_points(const Grid<D>& grid, int more = 0) const {
         double mean = saturated_density[D];
         for (std::size_t k = 0; k < D; ++k) mean *= (size_[k] + 2 * more) * grid.scales[k];
@@ -114,7 +114,7 @@ class Tile {
     };
     std::vector<Neighbour> neighbours;
     std::array<Pending, 2> pending;  ///< darts of even and odd rounds
-    std::vector<Gap<D>> gaps;        ///< possibly uncovered parts, once known
+    std::vector<Gap<D>> gaps;        ///< possibly uncovered regions, once known
 
   protected:
     Index first_{};  ///< first cell in the grid
@@ -133,7 +133,7 @@ struct GapWorkspace {
     NearDisks<D, double> exactly_reaching;
 };
 
-/// Whether a place in a cell is too near to a point.
+/// Whether the dart at `at` in a cell is too near to a point.
 template <class T, std::size_t D>
 bool hits_point(const T& tile, const Grid<D>& grid, const TileCell<D>& cell,
                 const std::array<double, D>& at) {
@@ -145,7 +145,7 @@ bool hits_point(const T& tile, const Grid<D>& grid, const TileCell<D>& cell,
     return hit;
 }
 
-/// Makes a dart pending, unless it hit a point or is rounded up to a face.
+/// Makes a dart pending, unless it hit a point or is rounded up to a face of the box.
 template <class T, std::size_t D>
 void add_pending(const T& tile, const Grid<D>& grid, const TileCell<D>& cell,
                  const std::array<double, D>& place, Hit hit, std::uint64_t random,
@@ -156,8 +156,8 @@ void add_pending(const T& tile, const Grid<D>& grid, const TileCell<D>& cell,
     if (hit == Hit::no || !hits_point(tile, grid, cell, dart.at)) pending.push_back(dart);
 }
 
-/// Draws darts on the open sub-cells of a gap, and calls draw(place in its cell) for each. Adds
-/// the parts of the gap that stay open to `left`.
+/// Draws darts on the open sub-cells of a gap, and calls draw(position in the cell) for each. Adds
+/// gaps around the open sub-cells to `left`, for the next round.
 template <std::size_t D, class Draw>
 void throw_at_gap(const Gap<D>& gap, SubcellBits open, const PoissonCounts& counts,
                   SplitMix64& mixer, std::vector<Gap<D>>& left, const Draw& draw) {
@@ -168,7 +168,7 @@ void throw_at_gap(const Gap<D>& gap, SubcellBits open, const PoissonCounts& coun
     narrow(gap, open, counts.mean(count) >= enough, left);
 }
 
-/// @tparam T a sampler's tile @tparam Workspace GapWorkspace or derived from it
+/// @tparam T tile of a sampler @tparam Workspace GapWorkspace or derived from it
 template <class T, class Workspace>
 class TileRounds {
   public:
@@ -194,7 +194,7 @@ class TileRounds {
         });
     }
 
-    /// One round: draw(tile, key, workspace) throws darts at a tile.
+    /// One round: draw(tile, key, workspace) makes the pending darts of a tile.
     template <class Draw>
     void round(const Draw& draw) {
         const std::uint64_t key = keys_.bits(++round_);
@@ -237,8 +237,7 @@ class TileRounds {
         }
     }
 
-    /// Mean number of darts per sub-cell of a cell, for `density` darts per r^D and cells of
-    /// maximum size.
+    /// Mean number of darts on a sub-cell of a cell of maximum size, for `density` darts per r^D.
     static double to_a_subcell(double density) {
         return density / std::sqrt(static_cast<double>(power(D, D))) /
                static_cast<double>(all_subcells<D>);
@@ -293,7 +292,7 @@ class TileRounds {
 
     static auto& of_round(T& tile, std::uint64_t round) { return tile.pending[round % 2]; }
 
-    /// Calls work(tile, number) for tiles with gaps, on several threads.
+    /// Calls work(tile, number) for the tiles that may have gaps, on several threads.
     template <class Work>
     void for_open(const Work& work) {
         for_each_block(silent(run_), open_.size(), 1,
@@ -353,7 +352,7 @@ class TileRounds {
         for (const auto& n : tile.neighbours) visit(tiles_[n.number], n.steps);
     }
 
-    /// Adds the darts accepted in the last round, in the tile and near it in others.
+    /// Adds the darts accepted in the last round, in the tile itself and near it in other tiles.
     void take_over(T& tile) {
         thread_local std::vector<Addition<D>> additions;
         additions.clear();
@@ -386,7 +385,7 @@ class TileRounds {
     /// kept rejects the later ones near it, which then need no search of their own.
     Status decide(T& tile, const Dart& d) {
         if (const Status known = d.status(); known != Status::pending) return known;
-        std::array<const Dart*, 32> later;  // more are rare, and decided separately
+        std::array<const Dart*, 32> later;  // more than 32 are rare, and decided separately
         std::size_t later_count = 0;
         const bool ruled_out = any_near(tile, d, [&](T& there, const Dart& other) {
             if (&other == &d || other.status() == Status::rejected) return false;
@@ -430,7 +429,7 @@ class TileRounds {
     RunContext run_;
     Rng keys_;
     std::vector<T> tiles_;
-    std::vector<std::uint32_t> open_;  ///< numbers of tiles with gaps
+    std::vector<std::uint32_t> open_;  ///< indices of tiles that may have gaps
     std::uint64_t round_ = 0;
 };
 

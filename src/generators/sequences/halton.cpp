@@ -12,8 +12,8 @@
 // Cost    O(n d): a table of reversed low digits makes it one division a coordinate. Owen's takes
 //         O(b) for every digit beyond the table. With a leap, O(log_b i) a coordinate.
 // Promise without or with fixed permutations, every coordinate is correctly rounded; with random
-//         ones, within 2^-52. All are below 1. Any b_1^m1 * ... * b_d^md consecutive points meet
-//         every box of that grid exactly once, also those of a leaped sequence. Under random and
+//         ones, within 2^-52. All are below 1. Any b_1^m_1 * ... * b_d^m_d consecutive points, also
+//         of a leaped sequence, meet every box with sides b_k^-m_k exactly once. Under random and
 //         nested permutations each point is uniformly distributed.
 // Beware  dimensions above 10 are strongly correlated at small counts, unless permuted.
 // Source  J. H. Halton, Numer. Math. 2 (1960) 84-90, doi:10.1007/BF01386213; leap: L. Kocis,

@@ -175,7 +175,7 @@ std::vector<Constants> constants(const Plan& plan, const Values& options, const 
     return {steps, begin};
 }
 
-/// Returns a note if all steps are multiples of a power of 1/2, because points then repeat.
+/// Returns a note if points repeat within the count, as all steps are multiples of a power of 1/2.
 std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
                                const Values& options) {
     Wide bits = 0;

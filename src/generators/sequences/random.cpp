@@ -12,7 +12,7 @@
 //     random       x / 2^31 of the C library's srandom(seed)    0 to 2^32 - 1; 0 is 1
 //
 // Cost     O(n d). philox and drand48 jump to any index; the others walk there.
-// Beware   the legacy engines repeat the numbers of old programs; they are not good ones. ranmar
+// Beware   the legacy engines reproduce the numbers of old programs; their quality is low. ranmar
 //          and random have so few bits that equal coordinates are frequent.
 // Source   see core/rng.hpp and math/digital/legacy_engines.hpp; the C++ standard, [rand.predef].
 

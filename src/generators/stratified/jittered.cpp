@@ -37,7 +37,7 @@ constexpr Param<Choice> cell{.name = "cell",
                              .choices = "random|center",
                              .help = "Position of a point in its cell"};
 
-/// Moves numbers from [0, 1) into their cells, or to the middles of the cells.
+/// Moves coordinates from [0, 1) into their cells, or to the middles of the cells.
 void place(bool centered, const Strata& strata, double* x, std::size_t stride) {
     centered ? place_in_middles(strata, x, stride) : place_in_strata(strata, x, stride);
 }
@@ -69,7 +69,7 @@ void place_in_rows(std::uint64_t n, bool centered, std::uint64_t first, std::spa
 void place_in_boxes(std::span<const std::uint64_t> sides, bool centered, std::uint64_t first,
                     std::span<double> rows) {
     const std::size_t d = sides.size();
-    // Number of points at a time, stored axis after axis.
+    // Number of points in a block, whose low edges are stored axis after axis.
     const std::size_t most = std::min(1 + 4096 / d, rows.size() / d);
     std::vector<double> low(most * d);
     for (std::size_t done = 0; done < rows.size() / d; done += most) {

@@ -20,7 +20,7 @@ namespace {
 /// Random points of the cube that have an image, at least `need` of them.
 std::vector<double> points_with_image(const Plan& plan, std::size_t need, const RunContext& run) {
     constexpr std::uint64_t most = std::uint64_t{1} << 27;
-    constexpr std::uint64_t enough = std::uint64_t{1} << 20;  // tries without success
+    constexpr std::uint64_t enough = std::uint64_t{1} << 20;  // tries without a point found
     constexpr std::uint64_t block = 4096;
     constexpr std::size_t at_once = 64;
     const std::size_t d = plan.dimension;
@@ -73,7 +73,7 @@ std::vector<std::vector<double>> strata_of_images(const Plan& plan, const RunCon
     return edges;
 }
 
-/// Along axes with discrete outcomes, puts points into the middles of strata and compares outcomes.
+/// Along axes with discrete outcomes, puts points into middles of strata and compares outcomes.
 void count_outcomes(const Destination& destination, LatinPlaces& places, search::Search& task) {
     const auto& axes = destination.axes;
     if (std::ranges::none_of(axes, &OutcomeAxis::discrete)) return;

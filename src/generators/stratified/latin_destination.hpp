@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Coordinates of the points of a Latin hypercube with known strata, and the search for one whose
-// points become parameters, some of which may be discrete or under constraints.
+// Positions of a Latin hypercube's points in their strata; and preparations for the search for one
+// whose points become parameters, some of which may be discrete or under constraints.
 //
-// Outcomes     along discrete axes, distances are those of outcomes, all categories being equally
-//              far from each other, and points are in the middles of their strata.
+// Outcomes     of discrete parameters: distances along their axes are those of outcomes, with all
+//              categories equally far apart, and points are in the middles of their strata.
 // Constraints  all points satisfy them. The search begins with exchanges of strata until they do.
 //              If that fails, as for x + y < 1, which no Latin hypercube with strata of equal width
 //              satisfies, the strata of each axis hold equal fractions of the points of the cube
@@ -27,7 +27,7 @@ class LatinPlaces {
     LatinPlaces(const Plan& plan, bool centered)
         : plan_(plan), in_middle_(plan.dimension, centered) {}
 
-    /// Puts points into the middles of their strata along this coordinate.
+    /// Puts points into the middles of their strata along this coordinate, from now on.
     void put_in_middles(std::size_t coordinate) { in_middle_[coordinate] = true; }
 
     /// Sets the boundaries of the strata along each coordinate, including both ends.

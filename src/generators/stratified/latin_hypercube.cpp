@@ -119,7 +119,7 @@ StrataOf permuted_strata(const Plan& plan) {
     };
 }
 
-/// Streams of random numbers for parts; stream 0 belongs to the plain hypercube.
+/// Streams of random numbers for --sliced and --nested; stream 0 belongs to the plain hypercube.
 constexpr std::uint64_t first_keys = 1;
 constexpr std::uint64_t second_keys = 2;
 
@@ -318,8 +318,8 @@ std::vector<std::size_t> held(const PointSet& given, std::size_t coordinate, std
     return points;
 }
 
-/// Design of `count` points: first the given ones, then others at random in empty strata. Spare
-/// rows hold the strata that stay empty.
+/// Design of `count` points: first the given ones, then others at random in empty strata. Rows
+/// after the points (spare rows) hold the strata that stay empty.
 search::Design extended(const PointSet& given, std::size_t count, const Rng& rng) {
     const std::size_t d = given.dimension();
     std::vector<std::vector<search::Level>> empty(d);

@@ -8,10 +8,9 @@
 //               likewise the strips of a row to its a points.
 //     else      with a columns, b = floor(n / a) rows of a points and one more, of height q / n,
 //               for the remaining q = n mod a points. Column c takes the strips from
-//               floor(c n / a) to floor((c + 1) n / a), up to a random phase: room for b or b + 1
-//               points, so that q columns, evenly spread, have a point in the last row. All points
-//               are then shifted by a random whole number of strips along x (modulo n), which makes
-//               every point uniform.
+//               floor(c n / a) to floor((c + 1) n / a), up to a random phase: b strips, or b + 1 in
+//               q columns, evenly spread, with a point in the last row. All points are then shifted
+//               by a random number of strips along x (modulo n), so that every point is uniform.
 //
 // a is that of --shape, or the largest divisor of n in [sqrt(n / 2), sqrt(n)], or floor(sqrt(n)) if
 // there is none.

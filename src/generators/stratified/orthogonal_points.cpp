@@ -41,7 +41,7 @@ class OrthogonalPoints {
     }
 
   private:
-    /// Level of a row in a column, and the number of the row among the rows of that level.
+    /// Level of a row in a column, and the rank of the row among the rows of that level, from 0.
     struct Entry {
         std::uint64_t level;
         std::uint64_t rest;
@@ -67,12 +67,12 @@ class OrthogonalPoints {
             return {level, row % before + row / before / s * before};
         }
         if (shape_.strength == 2) {
-            // Two columns determine the row. Neighbouring columns use each other, so that together
-            // they are a multi-jittered set in the plane.
+            // Two columns determine the row. Neighbouring columns rank rows by each other's levels,
+            // so that together they are a multi-jittered set in the plane.
             const std::size_t partner = (column ^ 1) <= s ? column ^ 1 : 0;
             return {level, value(partner, row)};
         }
-        // Given the level, the other coefficients determine the one that is left out of the number.
+        // The rank leaves out one coefficient of the row, which the level and the others determine.
         return {level, column == 1 ? row % powers_[shape_.strength - 1] : row / s};
     }
 

@@ -15,8 +15,8 @@
 //     none         no division
 //     independent  the points of a level are in random order, independently for every level
 //                  (Tang's Latin hypercubes; multi-jittered)
-//     shared       they are ordered by the levels of the other columns, permuted the same way for
-//                  every level (correlated multi-jittered)
+//     shared       the points of a level are ordered by the levels of the other columns, permuted
+//                  the same way for every level (correlated multi-jittered)
 //
 // Cost    O(n d t).
 // Source  R. C. Bose, Sankhya 3 (1938) 323-338; K. A. Bush, Ann. Math. Stat. 23 (1952) 426-434,
@@ -36,7 +36,7 @@ namespace stipple::generators {
 enum class Columns { polynomials, digits };
 enum class Substrata { none, independent, shared };
 
-/// The array: s levels, strength t.
+/// Size of an orthogonal array, and the rule for its columns.
 struct ArrayShape {
     std::uint64_t levels;
     std::size_t strength;
@@ -49,8 +49,8 @@ std::unique_ptr<Sequence> orthogonal_points(const Plan& plan, const StratifiedSt
 /// Prime p with p^strength == count. @throws Error(usage) naming the two nearest such counts
 std::uint64_t prime_root(std::uint64_t count, std::size_t strength, const std::string& who);
 
-/// Plan for points from arrays by polynomials; the default count is near 1024 and has enough
-/// columns.
+/// Plan for points from arrays by polynomials. The default count is near 1024, or higher if the
+/// dimension needs more levels.
 /// @throws Error(usage)
 Plan plan_by_polynomials(const Request& request, std::size_t strength, const std::string& who);
 

@@ -14,7 +14,7 @@
 namespace stipple::generators {
 namespace {
 
-/// Streams of random numbers of a generator's seed.
+/// Streams of random numbers under a generator's seed.
 enum class StratifiedStream : std::uint64_t {
     order,
     first_of_unit,

@@ -55,7 +55,7 @@ using StrataOf = std::function<std::uint64_t(std::size_t coordinate, std::span<c
 std::unique_ptr<Sequence> stratified_sequence(const Plan& plan, const StratifiedStyle& style,
                                               StrataOf strata);
 
-/// Coordinate of point `index` in a stratum of `parts`, the same as in stratified_sequence().
+/// Coordinate of point `index` in one of `parts` equal strata, as stratified_sequence() makes it.
 double place_in_stratum(const Plan& plan, bool centered, std::size_t coordinate,
                         std::uint64_t index, double stratum, std::uint64_t parts);
 

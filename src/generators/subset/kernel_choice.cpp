@@ -7,9 +7,9 @@
 // where m(x) is the mean of K(x, .) over the target and `total` that of K over both arguments.
 //
 // Let P_j = sum_(i chosen) K(x_i, x_j) be the potential of each of the N points. Kernel herding
-// chooses as number c the point with the least P_j + K_jj / 2 - c m_j. Then each chosen point in
-// turn is replaced by the best of all points, until no exchange helps. After that, some points are
-// exchanged at random and the search continues from the best choice so far.
+// chooses as the c-th point the one with the least P_j + K_jj / 2 - c m_j. Then each chosen point
+// in turn is replaced by the best of all points, until no exchange helps. After that, some points
+// are exchanged at random and the search continues from the best choice so far.
 //
 // Cost    N values of K per choice, 2 N per exchange; 32 N bytes, the columns of the points, and
 //         another 16 N bytes for the best choice so far.
@@ -63,8 +63,8 @@ STIPPLE_WIDE void subtract(const double* values, std::size_t count, double* scor
     for (std::size_t j = 0; j < count; ++j) scores[j] -= values[j];
 }
 
-/// Minimum of a tile's numbers, by halving, because a loop over a single minimum does not
-/// vectorise.
+/// Minimum of a tile's values, by halving, because a loop over a single minimum does not vectorise.
+/// @param room buffer for `count` values
 STIPPLE_WIDE double least(const double* numbers, std::size_t count, double* room) {
     for (std::size_t j = 0; j < count; ++j) room[j] = numbers[j];
     for (std::size_t size = count; size > 1;) {
@@ -87,7 +87,7 @@ struct Best {
     }
 };
 
-/// Chosen points, and the cost of choosing each of the others.
+/// Chosen points, and the terms of the cost of choosing each point.
 struct Chosen {
     Rows members;                    ///< in the order in which exchanges are tried
     std::vector<double> potentials;  ///< P_j of every point
@@ -173,9 +173,9 @@ class Herding {
         now_.halves[i] = kernel_.diagonal(row_.data()) / 2;
     }
 
-    /// Best point to choose, with the means times `weight`: for the current potentials (look),
-    /// after point i was added to them (grow), or as if point i were removed (remove). A scan with
-    /// `remove` stores the point's kernel values in removed_.
+    /// Point with the lowest score, with the means times `weight`: for the current potentials
+    /// (look), after point i was added to them (grow), or as if point i were removed (remove). A
+    /// scan with `remove` stores the kernel values of point i in removed_.
     Best scan(Step step, std::size_t i, double weight) {
         constexpr std::size_t tiles = 32;
         if (step != Step::look) points_.row(i, row_.data());

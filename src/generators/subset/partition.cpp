@@ -10,7 +10,7 @@
 // so for each i in turn the best j is taken. The means of K are not needed, since all points stay.
 //
 // Cost    some 8 n^2 values of K per pair. Every round roughly halves the squared discrepancies,
-//         until they are those of n good points.
+//         until they are those of n well-chosen points.
 // Promise depends only on the points, the number of sets, the seed and the number of values, not on
 //         the number of threads.
 // Source  this program's own; for halving by kernels see R. Dwivedi, L. Mackey, "Kernel thinning",
@@ -33,7 +33,7 @@ using kernels::Columns;
 using kernels::Kernel;
 using kernels::tile;
 
-/// The points of two sets that trade with each other; those of the first set come first.
+/// Points of two sets that trade: places 0, ..., n - 1 hold the first set, the rest the second.
 class Trade {
   public:
     Trade(const Kernel& kernel, const Columns& points, Rows& first, Rows& second,
@@ -85,7 +85,7 @@ class Trade {
         return rows;
     }
 
-    /// Kernel values of a column's point with all columns. Exchanges permute places, not columns.
+    /// Kernel values of a column's point with all columns. An exchange swaps places, not columns.
     void fill(std::size_t column, std::vector<double>& values) {
         points_.row(column, row_.data());
         for (std::size_t first = 0; first < 2 * n_; first += tile)

@@ -66,10 +66,10 @@ PointSet set_of(const PointSet& points, const Rows& rows) {
     return set;
 }
 
-/// Coordinate comparisons allowed for one measurement while sets are compared.
+/// Coordinate comparisons allowed for one measurement; a value after that many counts as exact.
 constexpr std::uint64_t work_of_measure = std::uint64_t{1} << 30;
 
-/// Finds the worst box, or stops at one that is as bad as `enough`.
+/// Finds the worst box, or stops at a box whose value is at least `enough`.
 Measured measure(const PointSet& set, double enough, const RunContext& run) {
     const auto grid = discrepancy::box_grid(set, discrepancy::Family::anchored, run);
     const auto told = [](const discrepancy::WorstBox& worst, bool exact) {
@@ -88,7 +88,7 @@ Measured measure(const PointSet& set, double enough, const RunContext& run) {
     return told(found.worst, true);
 }
 
-/// Boxes that were the worst of some set, with their excess for the current set.
+/// Worst boxes of the sets measured so far, with their excess for the current set.
 class BadBoxes {
   public:
     BadBoxes(const PointSet& points, std::size_t n, const RunContext& run)
@@ -108,7 +108,7 @@ class BadBoxes {
         boxes_.push_back(std::move(box));
     }
 
-    /// Counts the points of another set in all boxes.
+    /// Makes another set the current one: counts its points in all boxes.
     void take(const Bits& set) {
         for (Box& box : boxes_) count(box, set);
     }
@@ -172,7 +172,7 @@ class BadBoxes {
         box.excess = box.side == Side::closed ? excess : -excess;
     }
 
-    /// Drops the least recently selected half.
+    /// Drops the half of the boxes that were selected least recently.
     void forget() {
         std::ranges::stable_sort(boxes_, std::ranges::greater(), &Box::used);
         boxes_.resize(boxes_.size() / 2);
@@ -188,9 +188,9 @@ class BadBoxes {
 };
 
 struct Exchange {
-    std::size_t place;  ///< place of the member to remove
+    std::size_t place;  ///< index in `members` of the row to remove
     std::size_t row;    ///< row to insert
-    double excess;      ///< largest excess of the kept boxes
+    double excess;      ///< largest excess in the selected boxes after the exchange
 };
 
 /// A set and its star discrepancy.

@@ -19,7 +19,7 @@
 //
 // Shape   that of the given points; in [0, 1], for stein anywhere. Rows are those given, to the
 //         last bit, in their original order; for stein with their scores.
-// Cost    kernels: N n values of K for the greedy choice, and --effort times up to 2^31 for
+// Cost    kernels: N n kernel values for the greedy choice, and --effort times up to 2^31 for
 //         exchanges: 512 of 2^18 points of the plane in 2.5 s on one core. star: --effort times
 //         10 to 40 s, less for few points.
 // Promise depends only on the points, the options and the seed, not on the number of threads. The

@@ -15,12 +15,12 @@
 // (m = -mass): rectangles that hold at most half a point. sigma^2 is half the area of the square
 // about x that holds two points. So rho is smoothed until it varies little over a kernel; otherwise
 // the force would not be the gradient of an energy, and points would drift. For a constant density
-// this is the force of gaussian_relaxation.
+// this is the force of gaussian_relaxation.cpp.
 //
 // Shape   2-D; a density of any contrast; the same proportions of sides as in gaussian_relaxation.
 // Cost    a step: about 10 times that of relax_gaussian, more if the contrast is high.
-// Promise the same bits on every machine and for any number of threads; no point moves to a place
-//         of density 0.
+// Promise the same bits on every machine and for any number of threads; no point moves to
+//         where the density is 0.
 // Source  after A. G. M. Ahmed, J. Ren, P. Wonka, "Gaussian blue noise", ACM Trans. Graph. 41(6),
 //         260 (2022), doi:10.1145/3550454.3555519, whose kernels adapt to a density, too. The
 //         leaves and the force between kernels of different widths are ours.
@@ -40,9 +40,9 @@
 namespace stipple {
 namespace {
 
-constexpr double reach = 5;        // in standard deviations; exp(-12.5) = 3.7e-6
-constexpr double leaf_mass = 0.5;  // mass in points
-constexpr double window_mass = 2;  // mass in points
+constexpr double reach = 5;        // of a kernel, in standard deviations; exp(-12.5) = 3.7e-6
+constexpr double leaf_mass = 0.5;  // largest mass of a quadtree's leaf, in points
+constexpr double window_mass = 2;  // mass of the square that sets sigma, in points
 constexpr int deepest = 24;        // largest level of the quadtree
 
 using PlaneSides = std::array<double, 2>;
@@ -63,7 +63,7 @@ struct Body {
     double mass;
 };
 
-/// Bodies, one array for each member.
+/// Bodies, with one array for each of their members.
 struct Bodies {
     std::vector<double> x, y, squares, masses;
 
@@ -80,7 +80,7 @@ struct Bodies {
     }
 };
 
-/// Bodies near a point, including images.
+/// Bodies near a point, including periodic images.
 struct NearBodies {
     std::size_t count = 0;
     Bodies bodies = Bodies(0);
@@ -130,7 +130,7 @@ STIPPLE_WIDE std::array<double, 2> force_at(double x, double y, double a, const 
     return {sum_of_lanes(fx), sum_of_lanes(fy)};
 }
 
-/// Bodies of the torus whose sigma^2 is in one octave, sorted into cells about as wide as sigma.
+/// Bodies of the torus with sigma^2 in [2^e, 2^(e+1)), sorted into cells about sigma wide.
 class Octave {
   public:
     Octave(const PlaneSides& sides, int exponent, const std::vector<Body>& bodies)
@@ -152,7 +152,7 @@ class Octave {
         const double far = reach * std::sqrt((a + most_) / 2);
         const auto row_of = [&](double c) { return static_cast<std::int64_t>(c / widths_[1]); };
         for (std::int64_t row = row_of(y - far) - 1; row <= row_of(y + far) + 1; ++row) {
-            // The farther a row of cells is in y, the shorter its part within reach.
+            // The farther a row of cells is from y, the shorter is its segment within reach.
             const double below = static_cast<double>(row) * widths_[1] - y;
             const double gap = std::max({0.0, below, -below - widths_[1]});
             if (gap >= far) continue;
@@ -261,7 +261,7 @@ class Masses {
     std::vector<double> sums_;
 };
 
-/// Rectangles of the density that hold at most leaf_mass points each.
+/// Rectangles of the density that hold at most leaf_mass points each, except at the deepest level.
 class Quadtree {
   public:
     Quadtree(const DensityMap& map, double count, const PlaneSides& sides, const RunContext& run)
@@ -280,8 +280,8 @@ class Quadtree {
 
     [[nodiscard]] const std::vector<Body>& leaves() const { return leaves_; }
 
-    /// sigma^2 at a point of the unit square: the area per point in the square of the box around it
-    /// that holds window_mass points.
+    /// sigma^2 at a point of the unit square: the area per point in the square of the box around
+    /// the point that holds window_mass points.
     [[nodiscard]] double square_at(double x, double y) const {
         double low = 0;
         double high = 0.5;

@@ -10,7 +10,7 @@
 //     dm_i / dw_j = -(integral of rho along the edge of i and j) / (2 |x_i - x_j|),
 //
 // whose systems are solved by conjugate gradients. A step is halved until every cell has at least
-// half of the previous minimum mass, and the part t of the step reduces the error of the masses by
+// half of the previous minimum mass, and the fraction t of the step reduces the masses' error by
 // the factor 1 - t / 2 or more; then the method converges from any weights for which all masses are
 // positive.
 //
@@ -47,7 +47,7 @@ class EqualCells {
                const std::vector<double>& rows, const RunContext& run);
 
     /// Finds the weights, starting from the current ones, or from 0 if a site has lost its cell.
-    /// Sites that have no mass even then move to their places in `rescue` (n rows). Returns the
+    /// Sites that have no mass even then move to their rows of `rescue`. Returns the
     /// largest |m_i n / total - 1|, which is above `tolerance` only after `steps` steps or because
     /// of rounding.
     double equalize(double tolerance, std::span<const double> rescue, std::size_t steps = 1000);

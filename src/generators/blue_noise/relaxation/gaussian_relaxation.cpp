@@ -34,7 +34,7 @@
 namespace stipple {
 namespace {
 
-constexpr double kernel_reach = 6;  // the kernel there is exp(-6^2 / 2) = 1.5e-8
+constexpr double kernel_reach = 6;  // the kernel is exp(-6^2 / 2) = 1.5e-8 there
 constexpr double cell_side = 1.75;  // approximate; fastest of those measured
 constexpr double nowhere = 1e6;
 
@@ -67,7 +67,7 @@ Sides sides_of(std::size_t count, std::size_t dimension, std::span<const double>
     return sides;
 }
 
-/// Coordinates of points that may be near the points of a cell, padded with far ones.
+/// Coordinates of the points that may be near a cell's points, padded with far ones.
 struct Candidates {
     std::array<std::vector<double>, relaxation_dimensions> places = {};
     std::vector<double> weights = {};
@@ -100,7 +100,7 @@ STIPPLE_WIDE double pull(const double* places, double x, const double* weights, 
     return sum_of_lanes(parts);
 }
 
-/// Adds the kernels, and the kernels times the distances, of all images of `places` along one axis.
+/// Adds the kernels of all images of `places` along one axis, and the kernels times the distances.
 STIPPLE_WIDE void add_images(const double* places, double x, double side, int images,
                              std::size_t count, double* kernels, double* pulls) {
     for (int image = -images; image <= images; ++image)
@@ -127,7 +127,7 @@ STIPPLE_WIDE double sum_of_products(const Factors& factors, std::size_t dimensio
     return sum_of_lanes(parts);
 }
 
-/// `x` shifted by whole sides into [0, side), usually by at most one.
+/// `x` shifted into [0, side) by a multiple of `side`, usually by at most one side.
 double wrapped(double x, double side) {
     if (x < 0) x += side;
     if (x >= side) x -= side;
@@ -136,7 +136,7 @@ double wrapped(double x, double side) {
     return x >= 0 && x < side ? x : 0;
 }
 
-/// Sums over images along each axis, for the pairs of one point; padded with zeros.
+/// For the pairs of one point with others: sums over images along each axis; padded with zeros.
 struct AxisSums {
     std::array<std::vector<double>, relaxation_dimensions> kernels = {};
     std::array<std::vector<double>, relaxation_dimensions> pulls = {};
@@ -275,7 +275,7 @@ class Kernels {
         if (near.weights.size() < near.size()) near.weights.resize(near.size());
     }
 
-    /// Adds the row of cells along the first axis at the given offsets along the others.
+    /// Adds the points of a row of cells along axis 0 that has the given offsets on the other axes.
     void add_row(const Offsets& center, const Offsets& offset, std::int64_t most,
                  Candidates& near) const {
         double left = kernel_reach * kernel_reach;
@@ -322,7 +322,7 @@ class Kernels {
     std::array<std::size_t, relaxation_dimensions> along_{};  ///< cells along each side
     Sides widths_{};                                          ///< sides of a cell
     std::vector<double> places_;
-    bool by_axes_;  ///< sums over images are taken axis by axis
+    bool by_axes_;  ///< whether sums over images are taken axis by axis
     std::array<std::vector<double>, relaxation_dimensions> by_cell_;  ///< coordinates by cell
     std::vector<std::uint32_t> cell_of_;
     std::vector<std::uint32_t> sorted_;
@@ -339,7 +339,7 @@ void all_forces(Kernels& kernels, std::span<double> forces, const RunContext& ru
     });
 }
 
-/// Run for one step, on one thread if the step is short.
+/// Run context for one step: with one thread if the step is short.
 RunContext for_step(const RunContext& run, std::size_t count, std::size_t dimension) {
     constexpr double seconds[] = {1e-7, 5e-7, 1e-5, 1e-4};
     return worth_threads(run, static_cast<double>(count) * seconds[dimension - 1]);

@@ -25,13 +25,13 @@ inline double sum_of_lanes(const double* parts) {
            ((parts[2] + parts[6]) + (parts[3] + parts[7]));
 }
 
-/// Accelerated gradient steps, s F + b (last step).
+/// Accelerated gradient steps s F + b (last step), of length s along the forces F; b is Nesterov's.
 class Descent {
   public:
     explicit Descent(std::size_t coordinates) : ways_(coordinates) {}
 
-    /// Next step of every coordinate. The caller may change it; the following step builds on the
-    /// changed step.
+    /// Next step of every coordinate. The caller may change it; the following step continues the
+    /// changed one.
     std::span<double> step(std::span<const double> forces, double length);
 
   private:
@@ -50,8 +50,8 @@ void relax_gaussian(std::span<double> rows, std::size_t dimension, std::uint64_t
 /// Bytes that relax_to_density needs besides the rows and the map.
 double density_relaxation_bytes(std::uint64_t count, const DensityMap& map);
 
-/// Moves points of [0, 1)^2, all at places of positive density, by `steps` steps. Distances are
-/// those of a torus with sides proportional to `extents`, or of the unit torus if empty.
+/// Moves points of [0, 1)^2, all with a positive density, by `steps` steps. Distances are those of
+/// a torus with sides proportional to `extents`, or of the unit torus if empty.
 /// @throws Error(cancelled)
 void relax_to_density(std::span<double> rows, const DensityMap& map, std::uint64_t steps,
                       const RunContext& run, std::span<const double> extents = {});

@@ -38,12 +38,12 @@ using Cell = TileCell<2>;
 using Point = Grid<2>::Point;
 using Counts = std::vector<PoissonCounts>;
 
-/// A dart on a tile: its place from the tile's first cell, in units of 2^-26 of a cell.
+/// A dart on a tile: its offset from the tile's first cell, in units of 2^-26 of a cell's sides.
 struct Dart {
     std::uint32_t x;
     std::uint32_t y;
     std::uint32_t time;    ///< within its round
-    std::uint32_t detail;  ///< for a dart on a gap: index of its exact place in `places`
+    std::uint32_t detail;  ///< for a dart on a gap: index of its position in `places`
 };
 
 /// Buffers for the work on a tile, one set per thread.
@@ -108,8 +108,8 @@ class Thrower {
         work_.pending.push_back(dart);
     }
 
-    /// Place of a dart, from the tile's first cell, in cells. A dart on a sub-cell stores only the
-    /// first digits of its place; a hash of them gives further digits.
+    /// Position of a dart from the tile's first cell, in cells. A dart on a sub-cell stores only
+    /// the first digits of its position; a hash of them gives further digits.
     [[nodiscard]] Point place_of(const Dart& d) const {
         if (!work_.places.empty()) return work_.places[d.detail];
         const std::uint64_t more = SplitMix64(std::uint64_t{d.x} << 32 | d.y).next();
@@ -144,7 +144,7 @@ STIPPLE_WIDE void try_in_order(const PlaneRules& rules, PlaneTile& tile, PlaneWo
     for (const std::uint64_t one : work.order) thrower.try_dart(work.darts[one & 0xffffffff]);
 }
 
-/// Adds a dart on one of the open sub-cells of a cell.
+/// Adds a random dart on one of the `count` open sub-cells of a cell.
 [[gnu::always_inline]] inline void draw_in_cell(const Cell& cell, SubcellBits open,
                                                 std::size_t count, SplitMix64& mixer,
                                                 std::vector<Dart>& darts) {
@@ -180,7 +180,7 @@ STIPPLE_WIDE void draw_on_subcells(const PlaneTile& tile, const PoissonCounts& c
     }
 }
 
-/// Collects the points that may cover a part of a gap, relative to its lowest corner, in radii.
+/// Collects the points whose disks may reach into a gap, relative to its lowest corner, in radii.
 STIPPLE_WIDE void gather(const PlaneTile& tile, const Gap<2>& gap, NearDisks<2, float>& near) {
     const auto [column, row] = PlaneTile::cell_at(gap.place);
     const double half = gap.side() / 2;
@@ -281,7 +281,7 @@ class PlaneSampler {
         }
     }
 
-    /// Draws darts on the open sub-cells of a gap; adds the parts that stay open to the workspace.
+    /// Draws darts on the open sub-cells of a gap; adds gaps around these to the workspace.
     void draw_on_gap(const PlaneTile& tile, const Gap<2>& gap, const PoissonCounts& counts,
                      std::uint64_t key, PlaneWorkspace& work) const {
         const Cell cell = PlaneTile::cell_at(gap.place);

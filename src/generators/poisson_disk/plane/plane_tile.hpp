@@ -26,7 +26,7 @@
 namespace stipple::poisson_disk {
 
 // Positions of the points of a tile, in 16 bits along each direction, so that the 25 cells around a
-// place take ten loads of four cells each.
+// position take ten loads of four cells each.
 //
 // Coordinates are in units of 1/8192 of the radius, modulo 8 radii. Positions that are compared are
 // within three cells, at most 2.2 radii, so that differences modulo 2^16 are right. A cell without
@@ -66,11 +66,11 @@ class FixedPositions {
     static constexpr std::size_t halo = 2;  ///< width of the border of other tiles' cells
     static constexpr std::size_t stride = 64 + 2 * halo;
 
-    /// Number of positions for a tile with that many rows of cells.
+    /// Number of positions for a tile with `rows` rows of cells.
     static constexpr std::size_t needed(std::size_t rows) { return (rows + 2 * halo) * stride; }
 
-    /// @param origin position of the tile's first cell, in units
-    /// @param cell sides of a cell, in units
+    /// @param origin position of the tile's first cell, in units of 1/8192 radius
+    /// @param cell sides of a cell, in the same units
     /// @param rows number of rows of cells
     /// @param room memory for needed(rows) positions
     FixedPositions(const std::array<double, 2>& origin, const std::array<double, 2>& cell,
@@ -86,7 +86,7 @@ class FixedPositions {
             }
     }
 
-    /// Position of a place that is given in cells from the tile's first.
+    /// Position of the point (x, y), which is given in cells from the tile's first cell.
     [[nodiscard]] FixedPosition position_of(double x, double y) const {
         return {wrapped(origin_[0] + cell_[0] * x), wrapped(origin_[1] + cell_[1] * y)};
     }
@@ -98,12 +98,12 @@ class FixedPositions {
 
     void put(std::size_t number, FixedPosition position) { positions_[number] = position; }
 
-    /// Number of a cell, counted from the first one of the halo.
+    /// Index of a cell in the array of positions, counted from the first one of the halo.
     static constexpr std::size_t number(std::size_t x, std::size_t y) { return y * stride + x; }
 
-    /// Whether a point in the 25 cells from `first` on covers a place in the middle one.
+    /// Whether a point of the 25 cells from `first` on covers `place`, which is in the middle one.
     /// @param sure squared distance below which a point is a hit
-    /// @param possible squared distance from which on it is not a hit
+    /// @param possible squared distance from which on a point is not a hit
     [[nodiscard, gnu::always_inline]] Hit hit(std::size_t first, FixedPosition place,
                                               std::int32_t sure, std::int32_t possible) const {
         const FixedPosition* row = positions_ + first;
@@ -118,7 +118,8 @@ class FixedPositions {
         return nearest < sure ? Hit::yes : nearest < possible ? Hit::unsure : Hit::no;
     }
 
-    /// Calls visit(position) for the points in 25 cells whose squared distance is below `squared`.
+    /// Calls visit(position) for the points of the 25 cells from `first` on whose squared distance
+    /// from `place` is below `squared`.
     template <class Visit>
     [[gnu::always_inline]] void for_near(std::size_t first, FixedPosition place,
                                          std::int32_t squared, const Visit& visit) const {
@@ -134,7 +135,7 @@ class FixedPositions {
   private:
     static constexpr double half_turn = 32768;
 
-    /// Modulo 2^16; `units` is above -2^16, as the halo is narrow.
+    /// Position modulo 2^16; `units` is above -2^16, as the halo is narrow.
     static std::int16_t wrapped(double units) {
         return static_cast<std::int16_t>(
             static_cast<std::uint16_t>(static_cast<std::int64_t>(units + 2 * half_turn)));
@@ -145,9 +146,9 @@ class FixedPositions {
     FixedPosition* positions_ = nullptr;
 };
 
-// Coverage of the 5 x 5 cells around a disk's centre, with a bit for each of 8 x 8 sub-cells. It is
-// looked up by the place of the centre in its cell, one of Q x Q places. A bit is set if the
-// sub-cell is covered for every centre in that place. So one bit mostly decides whether a dart can
+// Coverage of the 5 x 5 cells around a disk's centre, with a bit for each of 8 x 8 sub-cells. The
+// centre's cell is divided into Q x Q squares, the places of the table: a bit is set if the
+// sub-cell is covered for every centre in the place. So one bit mostly decides whether a dart can
 // be kept, and one word whether a cell is covered.
 //
 // Shape   grids in which a radius spans two cells along both directions.
@@ -170,8 +171,8 @@ class CoverageTable {
             for (std::size_t row = 0; row < 5; ++row) rows_.push_back(row_of(place, row));
     }
 
-    /// Five rows of five cells, from two before the centre's cell on along both directions.
-    /// @param digits 32 binary digits of the centre in its cell, along each direction
+    /// Coverage of five rows of five cells, whose middle cell contains the centre.
+    /// @param digits 32 binary digits of the centre's position in its cell, along each direction
     [[nodiscard]] const Row* about(const std::array<std::uint32_t, 2>& digits) const {
         const unsigned drop = 31 - place_bits_;
         const std::size_t place =
@@ -185,7 +186,7 @@ class CoverageTable {
     static constexpr std::size_t worth = 128;
     static constexpr std::size_t most_places = 32;
 
-    /// Coverage of five cells along the first direction, for a centre anywhere in a place.
+    /// Coverage of a row of five cells, for a centre anywhere in a place.
     [[nodiscard]] Row row_of(std::size_t place, std::size_t row) const {
         const std::array<std::size_t, 2> at{place % places_, place / places_};
         const std::array<double, 2> there{-2, static_cast<double>(row) - 2};
@@ -227,9 +228,9 @@ class CoverageTable {
 
     const Grid<2>& grid_;
     Place sides_{};            ///< sides of a sub-cell, in radii
-    std::size_t places_ = 4;   ///< number of places of a centre along a direction
+    std::size_t places_ = 4;   ///< Q, the number of places along each direction
     unsigned place_bits_ = 2;  ///< binary logarithm of places_
-    std::vector<Row> rows_;    ///< five for each place of a centre
+    std::vector<Row> rows_;    ///< five rows of coverage for each place
 };
 
 /// Maximum number of cells along each side of a tile.
@@ -326,7 +327,7 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
   private:
     static constexpr int halo = FixedPositions::halo;
     static constexpr std::uint16_t none = 0xffff;
-    static constexpr std::size_t most_own = 0x4000;  ///< above the number of points in a tile
+    static constexpr std::size_t most_own = 0x4000;  ///< larger than the number of points in a tile
 
     /// Point of a taken cell, in the tile or its halo.
     [[nodiscard]] Point point(std::size_t number) const {
@@ -371,7 +372,7 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
     FixedPositions positions_;
     SubcellBits* covered_ = nullptr;
     std::uint16_t* index_ = nullptr;  ///< index of a cell's point; from most_own on, in halo_
-    std::size_t own_ = 0;             ///< number of the tile's own points so far
+    std::size_t own_ = 0;             ///< number of the tile's own points in index_ so far
     std::vector<double> halo_;        ///< points of other tiles
 };
 

@@ -15,7 +15,7 @@ constexpr std::size_t layer = 16;  ///< number of sub-cells with the same third 
 
 /// Positions of the sub-cells of a gap, relative to its middle; x + 4 y is the index in a layer.
 struct Pattern {
-    std::array<float, 3> side;  ///< sides of a sub-cell
+    std::array<float, 3> side;  ///< sides of a sub-cell, in radii
     std::array<float, layer> along_x;
     std::array<float, layer> along_y;
     std::array<float, 4> along_z;
@@ -80,11 +80,11 @@ struct LineCover {
     static constexpr std::size_t lines = 2 * reach;
     static constexpr int along = static_cast<int>(BallLines::along);
 
-    int first;                       ///< number of the first line, from the cell's corner
+    int first;                       ///< index of the first line, from the cell's corner
     std::array<float, lines> far_y;  ///< squared distances to the far sides of the lines
-    float x;  ///< centre in sub-cells, from `reach` sub-cells before the cell
+    float x;  ///< centre in sub-cells, from a point `reach` sub-cells before the cell
     float per_side;
-    int word;        ///< number of the word with the first bit
+    int word;        ///< index of the word with the first bit
     unsigned shift;  ///< position of that bit
 
     [[gnu::always_inline]] inline LineCover(const std::array<float, 3>& scales,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Coverage of a tile of cells in space by balls, with one bit for each quarter of a cell along each
-// direction. A word has 32 such sub-cells of a line along the first direction; the words of
-// adjacent lines follow each other.
+// Coverage of a tile of cells in space by balls, with one bit for each of the 4 x 4 x 4 sub-cells
+// of a cell. A word has 32 sub-cells of a line along the first direction; the words of adjacent
+// lines follow each other.
 //
 // A ball covers a sub-cell if it covers the corner farthest from its centre. On a line, these are
-// the sub-cells between two places. Finding these takes a square root, for many lines side by side.
+// the sub-cells between two ends. Finding them takes a square root, for many lines side by side.
 //
 // Cost    0.25 us for a ball.
 // Promise the bit of a sub-cell is set exactly if a single ball covers the sub-cell, and not within
@@ -32,7 +32,7 @@ struct BallLines {
     static constexpr std::size_t pad = 16;  ///< padding at both ends; kernels write to it, too
     static constexpr std::size_t room = along * layer + 2 * pad;
 
-    /// Index of the word with that number in the line (y, z).
+    /// Index of word number `word` of the line (y, z).
     static constexpr std::size_t at(std::size_t word, std::size_t y, std::size_t z) {
         return pad + z * layer + word * along + y;
     }

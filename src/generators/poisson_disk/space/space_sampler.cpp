@@ -28,9 +28,9 @@ using Counts = std::vector<PoissonCounts>;
 /// A dart on a sub-cell, as drawn.
 struct SubcellDart {
     using Digits [[gnu::vector_size(16)]] = std::int32_t;
-    Digits digits;         ///< place in the cell, in 2^-23 of its sides
+    Digits digits;         ///< position in the cell, in 2^-23 of its sides
     std::uint64_t detail;  ///< seed of its other random numbers
-    std::uint16_t place;   ///< number of the cell
+    std::uint16_t place;   ///< index of the cell in its tile
     std::uint8_t subcell;
 };
 
@@ -104,8 +104,8 @@ STIPPLE_WIDE void throw_at_subcells(const SpaceRules& rules, const SpaceTile& ti
     const Quad to_radii = Quad{rules.scales[0], rules.scales[1], rules.scales[2], 0} *
                           static_cast<float>(SpaceRules::digit);
     for (std::size_t column = 0; column < space_side * BallLines::words; ++column) {
-        // All darts of a layer are drawn first: hits are hard to predict and would delay the
-        // drawing.
+        // All darts of a layer are drawn first: hits are hard to predict, and mispredicted branches
+        // would delay the drawing.
         work.drawn.clear();
         for (std::size_t y = 0; y < BallLines::along; y += 2)
             draw_on_lines(tile, {column % BallLines::words * 32, y, column / BallLines::words * 4},
@@ -115,7 +115,7 @@ STIPPLE_WIDE void throw_at_subcells(const SpaceRules& rules, const SpaceTile& ti
     }
 }
 
-/// Sub-cell of a place in a cell.
+/// Index of the sub-cell that contains a point, given in cell sides from the cell's corner.
 std::size_t subcell_at(const Point& place) {
     std::size_t subcell = 0;
     for (std::size_t k = 3; k-- > 0;)
@@ -195,7 +195,7 @@ class SpaceSampler {
         }
     }
 
-    /// Throws darts at the open sub-cells of a cell's gaps; adds the parts that stay open to the
+    /// Throws darts at the open sub-cells of a cell's gaps; adds gaps around these to the
     /// workspace.
     void throw_at_cell(const SpaceTile& tile, const Cell& cell, SubcellBits some,
                        const Counts& counts, std::uint64_t key, SpaceWorkspace& work) const {

@@ -152,7 +152,7 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
         near.close();
     }
 
-    /// Whether a point covers a place in a sub-cell of a cell.
+    /// Whether a point of the tile or its halo covers `place`, in a sub-cell of a cell.
     /// @param place from the cell's corner, in radii
     [[nodiscard, gnu::always_inline]] Hit hit(const TileCell<3>& cell, std::size_t subcell,
                                               SpaceRules::Quad place) const {
@@ -176,7 +176,7 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
         return least < 1 + float_slack ? Hit::unsure : Hit::no;
     }
 
-    /// Calls visit(point, cell) for the points of the cells around one until a call returns false.
+    /// Calls visit(point, cell) for points of the 125 cells around one until a call returns false.
     template <class Visit>
     void for_about(const TileCell<3>& cell, const Visit& visit) const {
         for (std::size_t z = 0; z < SpaceBits::layers; ++z) {
@@ -201,7 +201,7 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
     }
 
   private:
-    /// Exact coordinates of a point, from the last number of its entry in places_.
+    /// Exact coordinates of a point, by the last component of its entry in places_.
     [[nodiscard]] Point exact(float known) const {
         const double* p = known < 0 ? &exact_[3 * static_cast<std::size_t>(-1 - known)]
                                     : &points_[3 * static_cast<std::size_t>(known)];
@@ -251,8 +251,8 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
     std::vector<std::uint32_t> lines_;
     SpaceBits taken_;
     std::vector<std::uint16_t> numbers_;  ///< by cell: index in places_ of its point, if taken
-    /// Points from the corners of their cells, in radii; the last number is the index i among the
-    /// tile's points, or -1 - i for the index in exact_. Floats hold these small integers exactly.
+    /// Points from the corners of their cells, in radii; the last component is the index i among
+    /// the tile's points, or -1 - i for the index in exact_. Floats hold such integers exactly.
     std::vector<SpaceRules::Quad> places_;
     std::vector<double> exact_;  ///< points of other tiles
     std::size_t own_ = 0;

@@ -19,7 +19,7 @@ std::vector<double> lines_of(const Box& box, std::size_t k, std::size_t cells) {
     return lines;
 }
 
-/// For each interval between two lines, the number of the coarser interval that contains it.
+/// For each interval between two lines, the index of the coarser interval that contains it.
 std::vector<std::size_t> owners(const std::vector<double>& lines,
                                 const std::vector<double>& coarser) {
     std::vector<std::size_t> owner;

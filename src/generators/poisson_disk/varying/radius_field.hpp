@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Distance that points should have at each place of a rectangle, up to a common factor:
+// Distance that points should have at each position in a rectangle, up to a common factor:
 //
 //     f(x) = sqrt(largest density / density(x)),    or a given length,    or 1,
 //
@@ -84,10 +84,10 @@ class RadiusField {
 
     [[nodiscard]] double least() const { return least(root()); }
 
-    /// f at a place of the rectangle; `closed` if points are not allowed there.
+    /// f at a position in the rectangle; `closed` if points are not allowed there.
     [[nodiscard]] double at(double x, double y) const { return within(root(), x, y); }
 
-    /// f at a place that is known to be in the node.
+    /// f at a position that is known to be in the node.
     [[nodiscard]] double within(const Node& node, double x, double y) const;
 
     /// Integral of 1 / f^2 over the rectangle.

@@ -77,7 +77,7 @@ class VariedSampler {
   private:
     static constexpr double first_density = 0.4;
     static constexpr double growth = 3;
-    static constexpr double most_darts = 1.5;  ///< mean number of darts on a gap
+    static constexpr double most_darts = 1.5;  ///< largest mean number of darts on a gap
     static constexpr std::size_t often = 256;  ///< gaps, or darts, between two checks for a stop
 
     /// Throws darts at all gaps: makes pending darts, and the gaps for the next round.
@@ -174,7 +174,7 @@ class VariedSampler {
             const double chance = to_unit(mixer.next());
             dart.time = mixer.next();
             if (!(dart.disk.at[0] < gap.high[0] && dart.disk.at[1] < gap.high[1]))
-                continue;  // rounded up to a face
+                continue;  // rounded up to a side of the gap
             const double f = gap.node.level == 0
                                  ? field_.least(gap.node)
                                  : field_.within(gap.node, dart.disk.at[0], dart.disk.at[1]);

@@ -13,7 +13,7 @@
 namespace stipple::latin_hypercube_search {
 namespace {
 
-constexpr double piece = 1024;  // trials between two changes of the accepted fraction
+constexpr double piece = 1024;  // number of trials between two changes of the accepted fraction
 constexpr double gain = 0.02;   // change of the temperature's logarithm per accepted trial
 // Polishing: the last trials of maximin, which search beyond the value reached.
 constexpr double polish_from = 0.8;    // fraction of the trials before polishing
@@ -32,7 +32,7 @@ Exchanges::Exchanges(Design design, const Rules& rules)
 }
 
 /// Row to exchange with row a: one of a's group, or one whose level is in the same coarse stratum;
-/// a itself if there is none.
+/// a itself if there is no other.
 std::size_t Exchanges::partner(SplitMix64& draws, std::size_t k, std::size_t a) const {
     const auto other = [&](std::size_t first, std::size_t last, std::size_t but) {
         const std::size_t drawn = first + draws.below(last - first - 1);

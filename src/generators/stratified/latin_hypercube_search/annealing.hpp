@@ -3,10 +3,10 @@
 // Simulated annealing of a design by exchanges of two levels along one coordinate.
 //
 // An exchange that raises the energy by e is accepted with probability exp(-e / temperature). The
-// temperature falls a little with each accepted exchange and rises with each rejected one, to keep
-// a wanted fraction of accepted exchanges for any scale of energies. This fraction falls from a
-// first value to a last one, by a constant factor from trial to trial. For maximin, the next target
-// is set when the energy reaches its target.
+// temperature falls a little when such an exchange is accepted and rises when it is rejected, to
+// keep a wanted fraction of accepted ones for any scale of energies. This fraction falls from a
+// first value to a last one, by a constant factor every 1024 trials. For maximin, the next target
+// is set as soon as the present one is reached, when the energy is 0.
 //
 // Promise  a function of the start, the schedule and the draws, however the trials are split.
 #pragma once
@@ -26,7 +26,7 @@ struct Schedule {
     double target = 0;  ///< first target of maximin; 0: one that suits a random design
 };
 
-/// Exchange of the levels of two rows along a coordinate; b may be a spare row.
+/// Exchange of the levels of two rows along a coordinate; b may be a spare row (see Design).
 struct Exchange {
     std::size_t coordinate;
     std::size_t a;
@@ -41,7 +41,7 @@ class Exchanges {
     /// Draws a random exchange; false if the rules, apart from feasibility, forbid it.
     bool draw(SplitMix64& draws, Exchange& exchange) const;
 
-    /// Number of points of an exchange that would become infeasible.
+    /// Number of points, of the two in an exchange, that would be infeasible after it.
     int infeasible(const Exchange& exchange);
 
     void make(const Exchange& exchange);
@@ -84,9 +84,9 @@ class Trail {
   private:
     void go_to_mark();
 
-    Design best_;                  ///< design before the steps
-    std::vector<Exchange> steps_;  ///< exchanges since then
-    std::size_t mark_ = 0;         ///< number of steps that lead to the best
+    Design best_;                  ///< an earlier design, before the steps
+    std::vector<Exchange> steps_;  ///< exchanges made since then
+    std::size_t mark_ = 0;         ///< number of steps that lead to the best design
     bool left_ = false;            ///< true after too many steps: the next mark is a copy
 };
 
@@ -100,7 +100,8 @@ class Annealing {
     /// @throws Error(cancelled), having recorded the best so far if the run keeps it
     void advance(double trials, const RunContext& run);
 
-    /// Best design so far and its score; for maximin, among the designs that reached a target.
+    /// Best design so far and its score; for maximin, among the designs that reached a target or
+    /// ended a call of advance().
     [[nodiscard]] const Design& best() { return trail_.best(); }
     [[nodiscard]] const Score& score() const { return score_; }
 
@@ -125,7 +126,7 @@ class Annealing {
     double done_ = 0;
     double next_ = 0;  ///< trial at which the accepted fraction changes next
     double share_;
-    double cooling_;  ///< factor by which the accepted fraction changes from piece to piece
+    double cooling_;  ///< factor of the accepted fraction every 1024 trials
     bool polishing_ = false;
     bool over_ = false;
     double temperature_ = 0;

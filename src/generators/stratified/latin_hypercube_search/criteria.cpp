@@ -22,7 +22,7 @@ double pairs_of(std::size_t points) {
     return n * (n - 1) / 2;
 }
 
-/// Places of the points along all coordinates, point after point.
+/// Positions (Axis::place) of the points along all coordinates, point after point.
 std::vector<Level> placed(const Design& design, const Rules& rules) {
     std::vector<Level> x;
     for (std::size_t i = 0; i < design.points; ++i)

@@ -13,7 +13,7 @@
 // A search minimises an energy, which an exchange of two levels updates in O(n), for correlations
 // in O(d):
 //
-//     maximin        sum over pairs of max(0, target - d^2); the target rises once that is 0
+//     maximin        sum over pairs of max(0, target - d^2); the target rises once the sum is 0
 //     centered_l2    n^2 times the square, without its constant
 //     correlation    sum over pairs of coordinates of the fourth power of the correlation
 //     others         the sum over pairs
@@ -58,7 +58,7 @@ class Criterion {
     Criterion& operator=(const Criterion&) = delete;
     virtual ~Criterion() = default;
 
-    /// Change of the energy if rows a and b exchange their levels along a coordinate; a is a point.
+    /// Change of the energy if rows a and b exchange levels on a coordinate; only b may be spare.
     virtual double change(std::size_t coordinate, std::size_t a, std::size_t b) = 0;
 
     /// Makes the exchange; `change` is the result of change().
@@ -66,7 +66,7 @@ class Criterion {
 
     [[nodiscard]] virtual double energy() const = 0;
 
-    /// Whether the energy is as low as possible or, for maximin, as the target requires.
+    /// Whether the energy cannot be lower or, for maximin, the target is reached.
     [[nodiscard]] virtual bool reached() const { return false; }
 
     /// Sets the target of maximin, a squared distance; 0: the mean squared distance of nearest
@@ -81,8 +81,8 @@ class Criterion {
     virtual Score score_below(const Score& other) = 0;
 };
 
-/// Criterion of a design. It follows later changes of the design only by exchange(). Pairs of fixed
-/// rows do not count. Long computations end when the run is stopped. @throws Error(cancelled)
+/// Criterion of a design. Later changes of the design affect it only by exchange(). Pairs of fixed
+/// rows do not count. A stop request ends long computations. @throws Error(cancelled)
 std::unique_ptr<Criterion> make_criterion(const Objective& objective, const Design& design,
                                           const Rules& rules, const RunContext& run = {});
 std::unique_ptr<Criterion> pair_criterion(const Objective& objective, const Design& design,
@@ -91,12 +91,12 @@ std::unique_ptr<Criterion> pair_criterion(const Objective& objective, const Desi
 /// Bytes that a criterion needs.
 double criterion_memory(const Objective& objective, const Design& design);
 
-/// Typical difference of two levels, and below the mean squared distance of two points. Both are
-/// used as divisors.
+/// Typical difference of two levels; and, by usual_square(), mean squared distance of two points.
+/// Both are used as divisors.
 double usual_difference(std::size_t points);
 double usual_square(std::size_t points, std::size_t dimension);
 
-/// Criterion's value for a score, as reported and as shown during a search.
+/// Criterion's value for a score, in the form of provenance and progress.
 double reported(const Objective& objective, const Score& score, std::size_t points,
                 std::size_t dimension);
 

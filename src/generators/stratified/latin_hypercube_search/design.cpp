@@ -20,7 +20,7 @@ struct Lattice {
     std::vector<std::size_t> vector = {};
 };
 
-/// Minimum squared distance of two points on the torus.
+/// Minimum squared distance of two points on the torus, in levels.
 double least_square(const Lattice& lattice) {
     double least = 0x1p62;
     for (std::size_t i = 1; i <= lattice.size / 2; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Designs as integers: along each coordinate, a row has the number of its stratum, its level.
+// Designs as integers: a row has one level, the index of its stratum, along each coordinate.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +15,9 @@ namespace stipple::latin_hypercube_search {
 
 using Level = std::int32_t;
 
-/// Levels 0, ..., points - 1, one coordinate after the other. Rows after the points hold levels
-/// that no point has, or -1; a point that exchanges its level with one of them moves to that
-/// stratum.
+/// Levels 0, ..., points - 1, one coordinate after the other. Spare rows, those after the points,
+/// hold levels that no point has, or -1; a point that exchanges its level with a spare row moves to
+/// that stratum.
 struct Design {
     Design(std::size_t points_, std::size_t rows_, std::size_t dimension_)
         : points(points_), rows(rows_), dimension(dimension_), levels(rows_ * dimension_, -1) {}
@@ -37,22 +37,22 @@ struct Design {
 };
 
 /// Design close to a lattice, with points that are far apart. Some random lattices of rank 1 with
-/// N = n, ..., 1.3 n points are compared, and the one of largest minimum distance is shifted at
-/// random on the torus. Its n points nearest to the middle are kept, by a maximum norm with random
-/// weights. Levels are the ranks of their coordinates. For N = n + 1 there is no shift: the removed
-/// point is a corner, and distances stay the same.
+/// about N = n, ..., 1.3 n points are compared. The one that should keep the largest minimum
+/// distance is shifted at random on the torus, and its n points nearest to the middle are kept, by
+/// a maximum norm with random weights. Levels are the ranks of coordinates. For N = n + 1 there is
+/// no shift: the removed point is a corner, and distances stay the same.
 Design lattice_start(std::size_t points, std::size_t dimension, SplitMix64& draws);
 
-/// Coordinate whose levels represent outcomes; levels of the same outcome are consecutive.
+/// Coordinate whose levels stand for outcomes, values of a parameter, with equal ones in a row.
 struct Axis {
-    std::vector<Level> places = {};  ///< position of each level in distances; empty: the level
+    std::vector<Level> places = {};  ///< position of each level, for distances; empty: the level
     Level parts = 0;                 ///< number of outcomes; 0: the coordinate is continuous
     Level apart = 0;                 ///< squared distance of two categories; 0: no categories
 
     [[nodiscard]] Level place(Level level) const {
         return places.empty() || level < 0 ? level : places[static_cast<std::size_t>(level)];
     }
-    /// Squared distance of two places.
+    /// Squared distance of two positions.
     [[nodiscard]] Level square(Level a, Level b) const {
         return apart == 0 ? (a - b) * (a - b) : a == b ? 0 : apart;
     }
@@ -62,8 +62,8 @@ struct Axis {
 /// part, rounded down.
 Axis even_parts(std::size_t points, Level parts);
 
-/// Axis with these outcomes of the levels 0, 1, ...: consecutive levels of the same outcome count
-/// as their middle. Categories are equally far apart, at a distance that gives two points the mean
+/// Axis whose levels 0, 1, ... have the given outcomes: consecutive levels of one outcome count as
+/// their middle. Categories are equally far apart, at a distance that gives two points the mean
 /// squared distance along other axes, but not farther than n.
 Axis parts_by(std::span<const double> outcomes, bool categories);
 
@@ -96,7 +96,7 @@ struct Rules {
 /// Result of a search.
 struct Result {
     Design design;
-    bool stopped = false;  ///< ended before all trials, because the run keeps the best
+    bool stopped = false;  ///< a stop request ended the search early, in a run that keeps the best
     bool optimal = false;  ///< no design is better
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Criteria that are sums over pairs of points. Every pair has a number, a squared distance or a
-// product. Each coordinate contributes to this number, and the pair's energy is a function of it.
-// Rows are padded to whole vectors with numbers of zero energy.
+// Criteria that are sums over pairs of points. Every pair has a value: its squared distance, to
+// which each coordinate adds a term, or a product, which has a factor for each coordinate. The
+// pair's energy is a function of this value. Rows are padded with values of zero energy.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -29,7 +29,7 @@ STIPPLE_INLINE double lane_sum(std::size_t n, Term term) {
            ((sums[2] + sums[6]) + (sums[3] + sums[7]));
 }
 
-/// Row of pairs of a point that moves along a coordinate; x are the places of the other points.
+/// Values of the pairs of a point that moves along a coordinate; x are the others' positions.
 template <class Value>
 struct Row {
     const Value* pairs;
@@ -75,7 +75,7 @@ STIPPLE_WIDE std::int64_t shortfall_change(const Row<Level>& row, Level target) 
                           : shortfall_by(row, target, Change(row));
 }
 
-/// Replaces n <= 64 numbers r by r^(power / 2).
+/// Replaces n <= 64 values r by r^(power / 2).
 STIPPLE_INLINE void raise(double* r, std::size_t n, int power) {
     double result[64];
     for (std::size_t l = 0; l < n; ++l) result[l] = power % 2 == 1 ? std::sqrt(r[l]) : 1;
@@ -136,13 +136,13 @@ STIPPLE_WIDE double centered_change(const Row<double>& row, double n) {
            });
 }
 
-/// Distance of two places along an axis, at least 0.5, as it is a divisor.
+/// Distance of two positions along an axis plus `more`, at least 0.5, as it is a divisor.
 STIPPLE_INLINE double gap_between(Level a, Level b, double far, double more) {
     const double difference = far == 0 ? std::abs(static_cast<double>(a - b)) : a == b ? 0 : far;
     return std::max(0.5, difference + more);
 }
 
-/// @param far distance of two categories; 0: the axis has none, and places give the distance
+/// @param far distance of two categories; 0: the axis has none, and positions give the distance
 STIPPLE_INLINE double projections_by(const Row<double>& row, double far, double more) {
     return lane_sum(row.size, [&](std::size_t j) {
         const double now = row.pairs[j];
@@ -171,7 +171,7 @@ struct Distances {
     }
 };
 
-/// Sum of the amounts by which squared distances are below a target.
+/// Sum of the amounts by which squared distances fall short of a target.
 struct Shortfall : Distances {
     Level target = 1;
 
@@ -181,7 +181,7 @@ struct Shortfall : Distances {
     }
 };
 
-/// Powers of inverse distances, scaled to 1 at the mean distance.
+/// Powers of inverse distances, scaled to 1 at the root mean square distance.
 struct Powers : Distances {
     int power = 2;
     double scale = 1;
@@ -196,7 +196,7 @@ struct Powers : Distances {
     }
 };
 
-/// Products, with a factor for each coordinate.
+/// Products of a pair, with a factor for each coordinate.
 template <class Factor>
 struct Products : Factor {
     using Value = double;

@@ -19,7 +19,7 @@ namespace {
 /// Annealings of the same length, up to eight in parallel.
 struct Round {
     std::size_t annealings;
-    double share;    ///< fraction of the stage's trials, for each of them
+    double share;    ///< fraction of the stage's trials that each of them takes
     bool from_best;  ///< every other one starts from one of the best designs
 };
 
@@ -45,7 +45,7 @@ std::vector<double> stages_of(double trials, double usual, std::size_t points) {
     constexpr double few = 96;
     std::vector<double> stages{few};
     const double least = std::min(usual / 8, 64 * static_cast<double>(points));
-    double sum = usual;  // total trials up to the end of a stage of sum / 2 trials
+    double sum = usual;  // total trials after a stage of sum / 2 trials
     while (sum / 2 >= least) sum /= 2;
     for (; sum <= trials; sum *= 2) stages.push_back(sum / 2);
     return stages;
@@ -73,7 +73,7 @@ class Rounds {
   private:
     static constexpr std::uint64_t stream = std::uint64_t{1} << 33;  // not used by the generator
     static constexpr std::size_t most_kept = 4;
-    static constexpr double cold = 1e-3;  // first accepted fraction for good starts
+    static constexpr double cold = 1e-3;  // first accepted fraction if a start is good
 
     [[nodiscard]] std::size_t points() const { return search_.start.points; }
 
@@ -87,7 +87,7 @@ class Rounds {
                start.dimension > 1 && start.dimension <= 3 && start.points > 10;
     }
 
-    /// Runs a stage of that many trials.
+    /// Runs a stage of `trials` trials.
     void go(double trials) {
         trials_ = trials;
         for (const Round& round :
@@ -177,7 +177,7 @@ class Rounds {
     RunContext inner_;
     Rng rng_;
     std::uint64_t tasks_ = 0;
-    double trials_ = 0;  ///< trials of the stage
+    double trials_ = 0;  ///< number of trials of the current stage
     double spent_ = 0;
     std::vector<Candidate> best_;
     std::optional<Candidate> result_;
@@ -191,7 +191,7 @@ class Rounds {
 // Computer Programming 4A (2011), 7.2.1.1 algorithm H, 7.2.1.2 algorithm P).
 
 /// First half of the plain changes of n items: p is an exchange of the items at positions p and p +
-/// 1. Ends before the two items that are first at the start would change their order.
+/// 1. Ends before the items at positions 0 and 1 of the start would change their order.
 std::vector<std::uint8_t> half_of_plain_changes(std::size_t n) {
     if (n < 3) return {};
     const std::vector<std::uint8_t> fewer = half_of_plain_changes(n - 1);
@@ -248,7 +248,7 @@ class Designs {
     Rules rules_;
     std::unique_ptr<Criterion> criterion_;
     std::vector<std::uint8_t> changes_;
-    std::vector<std::size_t> done_;  ///< number of changes made, by coordinate
+    std::vector<std::size_t> done_;  ///< number of changes made along each coordinate
     std::vector<bool> back_;         ///< whether the coordinate undoes its changes
 };
 

@@ -6,7 +6,7 @@
 //           lasts: more trials add stages, so the result of fewer trials is among those that are
 //           compared.
 // Rounds    of a stage: eight short annealings, eight of three times their trials, then four that
-//           take two thirds of the trials, two of them from the best design so far (annealing.hpp).
+//           take two thirds of the trials, two of them from the best designs (annealing.hpp).
 // Starts    random exchanges of the given design. For maximin in two or three coordinates there are
 //           more annealings; three of four start near lattices, at a low temperature.
 // Targets   of maximin are up to a fiftieth beyond the best squared distance so far.
