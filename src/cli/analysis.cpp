@@ -421,8 +421,7 @@ bool is_mean(const Report& means, const Report& results, const std::string& key)
     return !was || !is || alike(*was, *is);
 }
 
-/// Standard errors of the results that are plain means, without those that were combined in another
-/// way.
+/// Selects the standard errors of those results that are plain means over the sets.
 Report errors_of_means(const Report& errors, const Report& means, const Report& results,
                        const std::string& group = {}) {
     Report kept;

@@ -108,7 +108,7 @@ class Analysis {
     struct Group {
         Values options;  ///< given options, completed by those that the first set determines
         ReportAverage average = {};
-        std::vector<Report> singles = {};  ///< reports of single sets, if combined
+        std::vector<Report> singles = {};  ///< numbers of each set, for Analyzer::combine
     };
 
     void check_domain() const;

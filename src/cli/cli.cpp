@@ -81,8 +81,8 @@ int run_verb(int argc, char** argv) {
     }
 }
 
-/// Handles out of memory where exceptions cannot be caught: while an error is reported, and in
-/// destructors of JSON.
+/// Terminate handler: reports lack of memory where no exception can be caught, as while another
+/// error is reported, and in destructors of JSON values. Otherwise aborts.
 [[noreturn]] void end_terminated() {
     try {
         if (const auto caught = std::current_exception()) std::rethrow_exception(caught);

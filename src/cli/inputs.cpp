@@ -99,8 +99,8 @@ std::unique_ptr<io::PointStream> open_file(const std::string& path, const Source
                                       : std::move(points);
 }
 
-/// Records the domain of a table's input columns, from --parameters, --bounds or --domain; the
-/// analyzer knows which columns these are.
+/// Records in a table the domain of its input columns, from --parameters, --bounds or --domain. The
+/// analyzer selects these columns later.
 void take_told(PointSet& table, const Sources& from) {
     if (from.rescale) fail(ErrorKind::usage, "--rescale: these are rows of a table, not points");
     if (!!from.parameters + from.bounds.has_value() + from.domain.has_value() > 1)

@@ -68,7 +68,7 @@ struct SphereCircle {
     double height = 0;
 };
 
-/// Shape of a density of directions, which are unit vectors in space.
+/// Circles where a density on the unit sphere is not smooth, and the axis of its map to the cube.
 struct SphereShape {
     /// Axis of the map to the cube, if it has one: the cube coordinates of a direction are then the
     /// fraction of directions that are nearer to the axis, and the longitude.

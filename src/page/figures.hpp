@@ -20,7 +20,7 @@
 namespace stipple::page {
 
 inline constexpr std::size_t most_dots = 5000;
-inline constexpr std::size_t most_axes = 6;  ///< limit for axes whose pairs are drawn
+inline constexpr std::size_t most_axes = 6;  ///< maximum number of (first) axes drawn in pairs
 
 /// Colours of a page's pictures, with a series for each set.
 const plot::Theme& theme_of(bool dark);

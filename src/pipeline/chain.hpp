@@ -138,8 +138,8 @@ class WarpChain {
     /// Applies a step's set_step to the coordinates that it takes, in all rows of a set.
     static void apply_set_step(const Step& step, std::span<double> rows, const RunContext& run);
 
-    /// Stores the lowest index of a row whose image under a step is infinite.
-    /// @param cube the numbers that the step takes, of several rows
+    /// Records in infinite_ the lowest index of a row that a step maps to infinity.
+    /// @param cube coordinates that the step maps, of several rows
     /// @param first index of the first of these rows
     void note_infinite(const Step& step, std::span<const double> cube, std::uint64_t first) const;
 

@@ -54,7 +54,7 @@ struct Comparison {
 Comparison compare(const Making& making, Target written, io::PointStream& file, bool unmarked,
                    const RunContext& run);
 
-/// Returns the bytes of the file that would be written.
+/// Returns the bytes that `making` would write to `target`.
 std::string bytes_of(const Making& making, Target target);
 
 }  // namespace stipple

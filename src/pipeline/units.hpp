@@ -37,8 +37,8 @@ DomainPtr read_parameters(const std::string& path, const RunContext& run = {});
 /// The same warp, but with images in the unit cube.
 Spec in_unit_cube(Spec parameters);
 
-/// Sentence for the user: prefixes of such points are not sets of the same kind. Empty if they are,
-/// and if the generator is unknown.
+/// Warning that prefixes of the points differ from sets of fewer points. Empty if they do not, and
+/// if the generator is unknown.
 std::string unlike_prefixes(const Provenance& made);
 
 /// Completes a provenance read from a file by what the record of its generator says: whether the

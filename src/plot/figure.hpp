@@ -27,7 +27,7 @@ struct Frame {
 /// @throws Error(usage) if letters would be too small
 Drawing fitted(PictureStyle& style, const std::function<Drawing(const PictureStyle&)>& draw);
 
-/// Draws the frames, fitted to the style's size. A single panel has no letter.
+/// Draws the frames, fitted to the style's size. A single panel is not labelled "(a)".
 Drawing draw_figure(std::span<const Frame> frames, PictureStyle& style);
 std::string figure_as_text(std::span<const Frame> frames, PictureStyle style, const TextRoom& room);
 

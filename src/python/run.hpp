@@ -32,8 +32,8 @@ struct How {
     py::object progress;    ///< function called with the fraction done, or None
 };
 
-/// Whether a process that had already made calls has forked this one. The pool of oneTBB does not
-/// survive that: its threads are gone, but not its record of them.
+/// Whether this process was forked after a call of this function. Such a process must not use the
+/// thread pool of oneTBB, which still counts on the parent's threads.
 inline bool forked() {
     static const pid_t first = getpid();
     return first != getpid();

@@ -90,7 +90,7 @@ class StudyFile {
     void finish(const std::string& more, const RunContext& run);
 
   private:
-    /// Consecutive units whose rows are together in the table, in order.
+    /// Consecutive units whose rows follow each other in the table, in the order of the units.
     struct Stored {
         std::uint64_t last = 0;  ///< index after the last unit
         std::uint64_t offset = 0;

@@ -130,7 +130,7 @@ bool is_error_key(std::string_view key);
 std::optional<std::variant<std::vector<MeanRow>, StudySummary>> read_study(
     std::string_view bytes, const std::string& source, const RunContext& run);
 
-/// As read_study(), with the means of a table, without bootstrap intervals.
+/// As read_study(), but reduces a table to its means, without bootstrap intervals.
 std::optional<std::vector<MeanRow>> read_means(std::string_view bytes, const std::string& source,
                                                const RunContext& run);
 

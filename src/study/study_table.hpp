@@ -88,7 +88,7 @@ std::string study_preface(TableStyle style, const std::string& command);
 /// Whether a line is one of study_preface().
 bool is_study_preface(std::string_view line);
 
-/// The text after its study_preface(), if it has one.
+/// Removes the lines of a study_preface() from the start of a text.
 std::string_view without_preface(std::string_view text);
 
 /// Form of the rows in a file.

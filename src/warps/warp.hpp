@@ -44,8 +44,8 @@ class Mapping {
     /// Whether some points may have no image.
     [[nodiscard]] virtual bool drops() const { return false; }
 
-    /// Outcomes of each unit coordinate. Empty if all are continuous, or if outcomes depend on
-    /// other coordinates.
+    /// Maps from each unit coordinate to its discrete outcomes. Empty if all coordinates are
+    /// continuous, or if outcomes depend on several of them.
     [[nodiscard]] virtual std::vector<OutcomeAxis> outcome_axes() const { return {}; }
 
     /// Changes all points of a set in place: count x cube_dimension() numbers. @throws Error(input)
@@ -110,7 +110,7 @@ struct WarpTraits {
     bool refills = false;          ///< replaces dropped points: sets are as large as requested
     bool biased = false;           ///< some options are deliberately wrong; their help says so
     bool tabulated = false;        ///< points follow a table's density, which is near the domain's
-    bool needs_whole_set = false;  ///< some options have a Mapping::set_step()
+    bool needs_whole_set = false;  ///< with some options, mappings have a set_step()
     bool discrete = false;         ///< points are outcomes with probabilities, and have no density
 };
 

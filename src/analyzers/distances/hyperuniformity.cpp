@@ -19,7 +19,7 @@
 // every set contains the factor 1 - v / V of independent points. `dispersion` = variance / (mean (1
 // - v / V)) and the fit leave it out, so independent points have dispersion 1 at every radius.
 //
-// With straight distances, balls may extend beyond the box, where there are no points. So --windows
+// With --metric euclidean, balls may extend beyond the box, which has no points there. So --windows
 // random centres are drawn, the same in every run, such that the largest ball is inside the box.
 // Each centre is used for all radii. Mean and variance are those of their counts, with equal
 // weights; the variance would be unbiased for independent windows. A point is in a window if its

@@ -332,7 +332,7 @@ class EqualCounts {
         return static_cast<std::size_t>((sum + reach_) * (squares_ + 1) + squares);
     }
 
-    /// Adds a group when `left` groups remain; drops sums from which `rest` cannot be reached.
+    /// Adds a group to the sums; drops those that cannot reach `rest` with `left` more groups.
     [[nodiscard]] std::vector<double> with_group(const std::vector<double>& from, std::int64_t left,
                                                  std::int64_t rest) const {
         std::vector<double> to(table_size());

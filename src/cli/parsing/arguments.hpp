@@ -99,7 +99,7 @@ struct Arguments {
 /// @param names separated by commas
 void refuse_options(const Arguments& arguments, std::string_view names, std::string_view why);
 
-/// Parses the texts of the unit's own options. @throws Error(usage)
+/// Values of a unit's own options: those given, otherwise the defaults. @throws Error(usage)
 Values settings_of(const Schema& schema, const Arguments& arguments);
 
 /// Parses the words of a command line. @throws Error(usage) naming an unknown word and the nearest

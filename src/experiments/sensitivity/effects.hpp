@@ -99,7 +99,7 @@ struct Centred {
     double mean = 0;
     double unit = 1;  ///< original numbers are mean + unit z
 
-    /// Mean square of z, which is the variance in units of unit^2.
+    /// Mean square of z; the variance of the original numbers is unit^2 times this.
     [[nodiscard]] double variance() const;
 };
 

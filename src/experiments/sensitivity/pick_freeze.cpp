@@ -93,9 +93,9 @@ void append_terms(std::span<const double> f, std::size_t k, std::vector<double>&
         for (std::size_t j = i + 1; j < k; ++j) terms.push_back(ba[i] * ab[j] - a * b);
 }
 
-/// Mean, variance and indices from the means of the terms that append_terms() lists, in its order.
-/// All are NaN if the variance, which comes from the first and last rows of groups, is only
-/// rounding error.
+/// Computes mean, variance and indices from the means of the terms of append_terms(), in the same
+/// order. All are NaN if the outputs in the first and last rows of groups differ only by rounding
+/// errors.
 void indices_of(std::span<const double> means, std::size_t k, std::span<double> values) {
     constexpr double rounding = 1e-12;  // relative to the largest output, scaled to 1
     const double variance = means[1] - means[0] * means[0];

@@ -298,7 +298,7 @@ std::vector<Fold> fitted_folds(const Basis& basis, std::span<const double> z,
     return folds;
 }
 
-/// Group of terms of an index, by the inputs that they contain.
+/// Terms that contribute to an index: those that contain one given input, or two.
 struct Part {
     std::size_t first;
     std::size_t second;  ///< equal to `first` for a single input

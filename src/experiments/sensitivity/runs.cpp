@@ -267,7 +267,7 @@ void note_unused(const Columns& table, const Numbers& inputs, const Numbers& out
                            names_of(unused, table.names)));
 }
 
-// ---------------------------------------------------------------- two files, or one
+// ---------------------------------------------------------------- with and without a design file
 
 /// Names of the columns; a single output without a name is called "y".
 Names output_names(const PointSet& table) {

@@ -10,13 +10,13 @@
 // tiles and down in others; so large regions get their share even if rho is too low for a point in
 // every tile.
 //
-// Shape   of several points with the n-th score, those of lower tile, then of lower rank, are kept.
-// Cost    3 visits to each candidate, a point with a rank below s times the largest density in its
+// Shape   if several points have the n-th score, those of lower tile, then of lower rank, are kept.
+// Cost    3 visits to each candidate: points with a rank below s times the largest density in their
 //         tile; 2 to 3 ns a visit and core. 16 bytes a tile.
 // Promise no point is kept where the density is 0.
 // Source  J. Kopf, D. Cohen-Or, O. Deussen, D. Lischinski, "Recursive Wang tiles for real-time blue
 //         noise", ACM Trans. Graph. 25(3) (2006) 509-518, doi:10.1145/1141911.1141916: ranks as
-//         thresholds. There, tiles are of many kinds, and subdivide.
+//         thresholds. Their tiles are of many kinds and are subdivided.
 #pragma once
 
 #include <cstdint>

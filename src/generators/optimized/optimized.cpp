@@ -190,7 +190,7 @@ bool is_known(const Plan& plan, const Values& options) {
            (plan.count == 1 && !is_l2(options) && !options.given(axis_weights));
 }
 
-/// Whether to search over orders of points in the plane.
+/// Whether the search varies the orders of planar points (order_search.hpp), not coordinates.
 bool by_orders(const Plan& plan, const Values& options) {
     return options[objective] == "star" && plan.dimension == 2 && !options.given(from) &&
            !options.given(initial) && !options.given(axis_weights);

@@ -31,7 +31,7 @@
 
 namespace stipple::poisson_disk {
 
-/// Point that a tile takes over.
+/// Accepted point that is added to a tile: its own, or a nearby one of another tile.
 template <std::size_t D>
 struct Addition {
     std::array<double, D> at;

@@ -47,8 +47,8 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
     });
 }
 
-/// Base of each coordinate. The base of the sweep is p if n is a power of a prime p, because the
-/// sweep is then a coordinate of a net in base p; otherwise 2.
+/// Base of each coordinate. The base of the sweep is p if n is a power of a prime p <= 7919: the
+/// sweep is then a coordinate of a net in base p. Otherwise it is 2.
 std::vector<std::uint32_t> bases(const Plan& plan, const Values& options) {
     std::vector<std::uint32_t> all(
         primes.begin(), primes.begin() + static_cast<std::ptrdiff_t>(plan.dimension - 1));

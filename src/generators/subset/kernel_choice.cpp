@@ -53,7 +53,7 @@ STIPPLE_WIDE void add_difference(const double* values, const double* less, std::
     for (std::size_t j = 0; j < count; ++j) sums[j] += values[j] - less[j];
 }
 
-/// Sets scores[j] to P_j + K_jj / 2 - weight m_j for the points of a tile.
+/// Scores of the points of a tile, P_j + K_jj / 2 - weight m_j with P and m as above.
 STIPPLE_WIDE void score(const double* sums, const double* halves, const double* means,
                         double weight, std::size_t count, double* scores) {
     for (std::size_t j = 0; j < count; ++j) scores[j] = (sums[j] + halves[j]) - weight * means[j];

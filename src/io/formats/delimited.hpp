@@ -25,7 +25,7 @@ struct Dialect {
     std::size_t model_line = 0;  ///< line that defined the columns, for messages; 0: none
 };
 
-/// Position in the rows where a new set may begin: a line between rows, or a changed set number.
+/// Boundary between rows where a new set may begin: a separator line, or another set number.
 struct Mark {
     std::uint64_t row;  ///< index of the first row after the mark
     const char* at;

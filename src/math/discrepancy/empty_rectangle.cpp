@@ -152,7 +152,7 @@ class Sweep {
         }
     }
 
-    /// Offers all rectangles with this point on their upper side.
+    /// Passes to offer() all maximal empty rectangles with this point on their upper side.
     void follow_below(std::uint32_t point) {
         const std::uint32_t rank = grid_.ranks[0][point];
         const std::uint32_t top = grid_.ranks[1][point];
@@ -218,7 +218,7 @@ class Sweep {
     double margin_;      ///< rounding error of areas in doubles; 0 if they are exact
     HighestKey keys_;
     std::vector<std::uint32_t> first_at_;     ///< position of the first point at each rank
-    std::vector<std::uint32_t> position_of_;  ///< position of each point
+    std::vector<std::uint32_t> position_of_;  ///< by point: its index in grid_.order[0]
     WorstBox worst_;
 };
 

@@ -30,7 +30,7 @@ class LineTransform {
     LineTransform(Kind kind, std::size_t length, Planning planning);
     ~LineTransform();
 
-    /// @param lines aligned like GridCells
+    /// @param lines start of the first line, aligned to 64 bytes
     /// @param spacing doubles from one line to the next, a multiple of 8
     void execute(double* lines, std::size_t spacing, std::size_t count) const;
 

@@ -30,7 +30,7 @@ Known known_in_order(const BlockTable::Range& rows, const BlockTable::Range& col
     return columns.greatest <= rows.least ? Known::of_columns : Known::nothing;
 }
 
-/// Known property of a factor of the centered kernel.
+/// Known property of a factor of the centered kernel: 1 if 1/2 is between the two blocks.
 Known known_by_side(const BlockTable::Range& rows, const BlockTable::Range& columns) {
     const bool apart = std::min(rows.greatest, columns.greatest) <= 0.5 &&
                        std::max(rows.least, columns.least) >= 0.5;

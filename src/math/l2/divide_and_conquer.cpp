@@ -176,7 +176,7 @@ class OneProduct {
     bool alone_;
 };
 
-/// An axis whose kernel is p(x) 1 + 1 q(y) - g(x) g(y) for x <= y.
+/// Axis with the kernel p(x) + q(y) - g(x) g(y) for x <= y, a sum of three products.
 class ThreeProducts {
   public:
     static constexpr std::size_t rank = 3;

@@ -262,8 +262,8 @@ struct FaceTree::Path {
     double last = 0;
 };
 
-/// Compares the facets that u selects with those of a path: negative if u's come before, positive
-/// if after, 0 if they are equal.
+/// Position of the path that u selects relative to `path`, in the order of increasing u: -1 before
+/// it, 1 after it, 0 if they are the same.
 int FaceTree::side_of(const Path& path, double u) const {
     std::size_t face = faces_.size() - 1;
     for (std::size_t k = 0; k < d_; ++k) {

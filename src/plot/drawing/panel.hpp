@@ -74,7 +74,7 @@ class Panel {
 
 inline constexpr double colour_bar_room = 62;  ///< width of the bar with its numbers
 
-/// Draws colours from the bottom (0) to the top (1); the ticks have values in this range.
+/// Draws a bar from colour(0) at the bottom to colour(1) at the top, with ticks in [0, 1].
 void draw_colour_bar(Drawing& drawing, const Area& area, const std::string& name,
                      const Theme& theme, const std::function<Colour(double)>& colour,
                      const std::vector<Tick>& ticks);

@@ -101,7 +101,7 @@ class ConeDomain final : public NamedDomain {
         return SphereShape{.circles = {{cap_.frame.z, cap_.rim.cos}}};
     }
     std::optional<Moments> moments() const override {
-        // With v = 1 - z, which is uniform, thin cones lose no digits.
+        // 1 - z is uniform on [0, v]. In terms of v, thin cones lose no digits.
         const double v = cap_.rim_minus();
         const AxialMoments round{.along = {1 - 0.5 * v, v * v / 12, 0},
                                  .across = v * (0.5 - v / 6),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Unit square onto the directions in a spherical triangle with corners a, b, c, uniform in solid
-// angle (Arvo). The great circle through b that separates the fraction xi0 of the area A, next to
-// the edge ab, meets the edge ac at c'. With q the distance from a to c':
+// angle (Arvo). The great circle through b that cuts off the fraction xi0 of the area A, on the
+// side of the edge ab, meets the edge ac at c'. With q the distance from a to c':
 //
 //     tan(q/2) = sin(A xi0 / 2) / (tan(ab/2) sin(alpha - A xi0 / 2)),    alpha the angle at a
 //
@@ -18,7 +18,7 @@
 // Cost    O(1) a point; on one core about 11 ns forward, 46 ns inverse.
 // Promise density 1 / A. Directions lie in the triangle up to the rounding stated at slack_of(). A
 //         round trip returns the same direction within 1e-14; for near-hemispheres, within 1e-14
-//         over the distance stated there. The same bits on every machine.
+//         divided by the distance stated there. The same bits on every machine.
 // Source  J. Arvo, "Stratified sampling of spherical triangles", SIGGRAPH 95, 437-438,
 //         doi:10.1145/218380.218500.
 

@@ -6,7 +6,7 @@
 //     its first coordinate xi0' = (xi0 - w_0 - ... - w_i-1) / w_i, the others unchanged;
 //     density = sum_i w_i density_i.
 //
-// Components are specs separated by |, as in
+// Components are specs separated by |:
 //
 //     mixture:weights=[0.6,0.4],components=[von-mises-fisher:kappa=50,axis=[1,0,0]|sphere]
 //
@@ -17,8 +17,8 @@
 // the bounding box.
 //
 // Shape   as many unit coordinates as the components take, and as many coordinates as they give.
-// Strata  xi0 is used directly, divided by the weights and rescaled: n strata give each component n
-//         w_i of them, rounded up or down. Otherwise strata are those of the components.
+// Strata  xi0 is used directly: of n strata, component i receives n w_i, rounded up or down. Within
+//         a component, strata are those of the component for xi0' and the other coordinates.
 // Cost    that of the components, plus about 8 ns a point on one core.
 // Promise a component of weight 0 never occurs. Probabilities of cells are the weighted sums of the
 //         components' probabilities. There is no inverse, since a point may come from several

@@ -75,7 +75,7 @@ struct Pattern {
 
 /// Sub-cells that a ball covers in a layer: on 16 adjacent lines, as it reaches no more of them.
 struct LineCover {
-    /// A ball reaches seven sub-cells to each side, and into an eighth.
+    /// Maximum radius of a ball in sub-cells, whose sides are at least an eighth of a radius.
     static constexpr int reach = 8;
     static constexpr std::size_t lines = 2 * reach;
     static constexpr int along = static_cast<int>(BallLines::along);

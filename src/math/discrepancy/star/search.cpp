@@ -15,10 +15,10 @@
 //     closed   C(y)/n - V(y) <= C(lo)/n - base  - sum_j min over y_j of [step_j(y_j) - c_j(y_j)/n]
 //
 // For open boxes, points undecided on a single axis are assigned to it. For closed boxes all are
-// assigned, each to the undecided axis on which reaching it costs most. The steps come from a bound
-// of V that is a sum over the axes, for open boxes V(y) <= V(hi) - sum step:
+// assigned, each to the undecided axis on which reaching it costs most. The steps are
 //
-//     chord        step_j = (log hi_j - log y_j) (V(hi) - m) / (log V(hi) - log m)
+//     open         step_j = (log hi_j - log y_j) (V(hi) - m) / (log V(hi) - log m)
+//     closed       step_j = (log y_j - log lo_j) v,            base = v (1 + log V(lo) - log v)
 //
 // This is the chord of exp between log m and log V(hi), so it holds if V(y) >= m. Any box worse
 // than the worst known value D has V(y) > m = D + O(lo)/n. For closed boxes V(y) >= base + sum
@@ -215,8 +215,8 @@ class CellBounder {
     }
 
     /// Sets kept_ to the points to keep, first those below hi on all axes, and state_ to the number
-    /// of axes on which each of these is undecided. Points inside all boxes are only counted, in
-    /// mine.decided, unless ends_at_lo().
+    /// of undecided axes of each of these. Points inside all boxes are dropped and counted in
+    /// mine.decided, except those that make a coordinate a candidate (ends_at_lo()).
     void select(const Cell& cell, const Active& from, Active& mine) {
         kept_.resize(from.size);
         on_face_.resize(side == Side::open ? from.size : 0);

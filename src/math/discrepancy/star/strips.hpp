@@ -69,7 +69,7 @@ struct Plane {
 /// Builds the plane; it keeps a reference to the grid.
 Plane plane(const BoxGrid& grid, const RunContext& run);
 
-/// Strips first, ..., last - 1.
+/// Range of strips: first, ..., last - 1.
 struct StripRange {
     std::size_t first;
     std::size_t last;
