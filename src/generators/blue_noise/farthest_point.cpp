@@ -213,7 +213,7 @@ Generator unit() {
             .aliases = {"fpo", "farthest-point-optimization"},
             .plan = planar_plan,
             .set = make,
-            .uses_seed = planar::uses_seed};
+            .uses_seed = [](const Values& options) { return !options.given(planar::from); }};
 }
 
 }  // namespace stipple::generators::farthest_point

@@ -89,8 +89,7 @@ Generator unit() {
                           torus_option, bounded_option),
         .aliases = {"cvt", "centroidal-voronoi"},
         .plan = planar_plan,
-        .set = make,
-        .uses_seed = planar::uses_seed};
+        .set = make};
 }
 
 }  // namespace stipple::generators::lloyd

@@ -41,9 +41,6 @@ constexpr Param<std::int64_t> iterations_option(std::int64_t usual, std::string_
             .unit = "iterations",
             .help = help};
 }
-
-/// Generator::uses_seed of generators that draw random numbers for the initial points only.
-inline bool uses_seed(const Values& options) { return !options.given(from); }
 }  // namespace planar
 
 /// Rectangle of a plan; points are relative to its lower corner while they are improved.

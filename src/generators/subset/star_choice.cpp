@@ -48,7 +48,7 @@ void flip(Bits& bits, std::size_t i) { bits[i / 64] ^= std::uint64_t{1} << (i % 
 /// Star discrepancy of a set, and its worst box.
 struct Measured {
     double value = 1;
-    bool exact = false;  ///< false: a box that was bad enough ended the search
+    bool exact = false;  ///< false: `value` may be only a lower bound
     Side side = Side::closed;
     std::vector<double> corner = {};
 };
@@ -85,7 +85,7 @@ Measured measure(const PointSet& set, double enough, const RunContext& run) {
     const auto found =
         discrepancy::star::sweep_or_search(grid, std::move(worst), {.work = work_of_measure}, run);
     run.check_stop();
-    return told(found.worst, true);
+    return told(found.worst, found.ending == discrepancy::Ending::complete);
 }
 
 /// Worst boxes of the sets measured so far, with their excess for the current set.

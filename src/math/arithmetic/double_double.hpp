@@ -42,7 +42,8 @@ inline DoubleDouble exact_product(double a, double b) {
     return {product, std::fma(a, b, -product)};
 }
 
-/// Exact product of two doubles without fused multiply-adds, for loops on any processor.
+/// Product of two doubles, with a relative error of at most 2^-104, without fused multiply-adds: for
+/// loops on any processor.
 inline DoubleDouble split_product(double a, double b) {
     constexpr std::uint64_t upper = ~0x7ffffffULL;  // keeps 26 bits; a_low b_low may be rounded
     const auto a_high = std::bit_cast<double>(std::bit_cast<std::uint64_t>(a) & upper);

@@ -138,6 +138,10 @@ TEST(Lloyd, PointsInOnePlacePart) {
         for (const double x : set.flat()) EXPECT_TRUE(x >= 0 && x < 1);
         EXPECT_LT(energy(set, settings.empty()), 0.25);
         EXPECT_NE(set, make("lloyd", {}, with(settings, "from", path), {.seed = 2}));
+        const Generator& lloyd = find_generator("lloyd");
+        Values values = lloyd.options.defaults();
+        lloyd.options.set(values, "from", path);
+        EXPECT_TRUE(uses_seed(lloyd, values));
     }
 }
 
