@@ -149,8 +149,12 @@ class AnalyzeCall {
         return !several_analyzers() && only().analyzer().accumulate && !request_.rescale;
     }
 
-    /// Checks that --weights applies to the sources of points. @throws Error(usage)
+    /// Checks that --weights applies to the sources of points, and tells of files given twice, whose
+    /// sets are not independent. @throws Error(usage)
     void require_sources() const {
+        for (auto i = inputs_.begin(); request_.averaged() && i != inputs_.end(); ++i)
+            if (std::find(inputs_.begin(), i, *i) != i)
+                session_.run().notify(*i + " is given twice: its sets are averaged twice");
         if (strengths().empty()) return;
         if (!request_.generate.empty())
             fail(ErrorKind::usage, "--weights: generated points have no weight column");

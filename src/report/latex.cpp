@@ -39,8 +39,17 @@ std::string escaped(char c) {
     }
 }
 
-/// Decimal exponent of the first digit.
-int exponent_of(double x) { return static_cast<int>(std::floor(std::log10(std::abs(x)))); }
+/// Decimal exponent of the first digit after rounding to `digits` digits.
+int exponent_of(double x, int digits) {
+    const std::string text = fmt::format("{:.{}e}", x, std::clamp(digits, 1, 17) - 1);
+    return std::stoi(text.substr(text.find('e') + 1));
+}
+
+/// value / 10^exponent, also where the power is no double.
+double shifted(double value, int exponent) {
+    const int half = exponent / 2;
+    return value / std::pow(10.0, half) / std::pow(10.0, exponent - half);
+}
 
 }  // namespace
 
@@ -60,13 +69,15 @@ std::string latex_number(double value, double half_width) {
     if (value == 0 && !spread) return "$0$";
     const bool whole = value == std::floor(value) && std::abs(value) < 1e6;
     if (whole && !spread) return fmt::format("${:.0f}$", value);
-    const int first = exponent_of(std::max(std::abs(value), spread ? half_width : 0));
-    const int last = spread ? exponent_of(half_width) - 1 : first - 3;
+    const double largest = std::max(std::abs(value), spread ? half_width : 0);
+    const int width = spread ? exponent_of(half_width, 2) : 0;
+    const int first = exponent_of(largest, spread ? exponent_of(largest, 17) - width + 2 : 4);
+    const int last = spread ? width - 1 : first - 3;
     const bool scaled = first < -3 || first > 5;
-    const double unit = scaled ? std::pow(10.0, first) : 1;
-    const int digits = std::clamp((scaled ? first : 0) - last, 0, 15);
-    std::string text = fmt::format("{:.{}f}", value / unit, digits);
-    if (spread) text += fmt::format(" \\pm {:.{}f}", half_width / unit, digits);
+    const int unit = scaled ? first : 0;
+    const int digits = std::clamp(unit - last, 0, 15);
+    std::string text = fmt::format("{:.{}f}", shifted(value, unit), digits);
+    if (spread) text += fmt::format(" \\pm {:.{}f}", shifted(half_width, unit), digits);
     if (!scaled) return "$" + text + "$";
     if (spread) text = "(" + text + ")";
     return fmt::format("${} \\times 10^{{{}}}$", text, first);

@@ -27,6 +27,12 @@ TEST(Latex, NumbersHaveTheDigitsThatTheirIntervalAllows) {
     EXPECT_EQ(latex_number(0, 0.5), "$0.00 \\pm 0.50$");
     EXPECT_EQ(latex_number(0.0123456, unknown), "$0.01235$");
     EXPECT_EQ(latex_number(1.5e-9, 0), "$1.500 \\times 10^{-9}$");
+    EXPECT_EQ(latex_number(0.00099996, unknown), "$0.001000$");
+    EXPECT_EQ(latex_number(0.000099996, unknown), "$1.000 \\times 10^{-4}$");
+    EXPECT_EQ(latex_number(0.25, 0.000996), "$0.2500 \\pm 0.0010$");
+    EXPECT_EQ(latex_number(9.996e-7, 9.96e-8), "$(1.00 \\pm 0.10) \\times 10^{-6}$");
+    EXPECT_EQ(latex_number(5e-324, unknown), "$4.941 \\times 10^{-324}$");
+    EXPECT_EQ(latex_number(1.7e308, unknown), "$1.700 \\times 10^{308}$");
     EXPECT_EQ(latex_number(64, unknown), "$64$");
     EXPECT_EQ(latex_number(0, unknown), "$0$");
     EXPECT_EQ(latex_number(unknown, unknown), "--");

@@ -7,6 +7,9 @@
 #include <cstdint>
 #include <cstring>
 #include <iterator>
+#include <limits>
+
+#include "core/error.hpp"
 
 namespace stipple {
 namespace {
@@ -56,6 +59,8 @@ void append_raw(std::string& out, std::span<const double> numbers, bool single) 
     char* to = out.data() + start;
     for (const double number : numbers) {
         const float cut = to_single(number);
+        if (std::abs(number) > double{std::numeric_limits<float>::max()} && std::isfinite(number))
+            fail(ErrorKind::input, "float32 cannot hold {}; write float64", number);
         std::memcpy(to, &cut, 4);
         to += 4;
     }

@@ -20,6 +20,12 @@ inline CosSin cos_sin_radians(double angle) {
     return {cos, angle < 0 ? -sin : sin};
 }
 
+/// Cosine and sine of any finite angle within 2 units in the last place, also of huge angles and next
+/// to multiples of pi / 2. Slower than cos_sin_radians().
+/// Source  M. H. Payne, R. N. Hanek, ACM SIGNUM Newsletter 18 (1983) 19-24: only the digits of
+///         1 / (2 pi) that do not give whole turns are multiplied.
+CosSin precise_cos_sin(double angle);
+
 /// The angle in [0, pi] with cosine x in [-1, 1].
 inline double arc_cosine(double x) {
     return 2 * std::numbers::pi * turns_of(x, std::sqrt((1 - x) * (1 + x)));

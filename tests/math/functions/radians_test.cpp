@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "core/rng.hpp"
 
@@ -32,6 +33,36 @@ TEST(Radians, SineAndCosineOfAnyAngle) {
             EXPECT_LE(error(c, cos(Real(angle))), allowed) << angle;
             EXPECT_LE(error(s, sin(Real(angle))), allowed) << angle;
         }
+}
+
+// Sine and cosine to 1500 bits; near multiples of pi / 2 most of them cancel.
+TEST(Radians, PreciseSineAndCosineOfHugeAnglesAndNextToQuarters) {
+    using Wide = boost::multiprecision::number<
+        boost::multiprecision::cpp_bin_float<1500, boost::multiprecision::digit_base_2>>;
+    const auto check = [](double found, const Wide& truth) {
+        const double near = truth.convert_to<double>();
+        const double unit = std::nextafter(std::abs(near), 2) - std::abs(near);
+        EXPECT_LE(abs(Wide(found) - truth).convert_to<double>(), 2 * unit) << near;
+    };
+    std::vector<double> angles = {0x1.921fb54442d18p+0,
+                                  0x1.921fb54442d18p+1,
+                                  1e22,
+                                  -1e15,
+                                  0.1,
+                                  6381956970095103 * 0x1p797,
+                                  std::numeric_limits<double>::max()};
+    const Rng rng(4);
+    for (std::uint64_t i = 0; i < 300; ++i)
+        angles.push_back(std::ldexp(1 + rng.uniform(i), static_cast<int>(i * 3) - 20));
+    for (int k = 1; k < 100; ++k) angles.push_back(k * std::numbers::pi / 2);
+    for (const double angle : angles) {
+        const auto [c, s] = precise_cos_sin(angle);
+        check(c, cos(Wide(angle)));
+        check(s, sin(Wide(angle)));
+    }
+    EXPECT_EQ(precise_cos_sin(0).cos, 1);
+    EXPECT_EQ(precise_cos_sin(0).sin, 0);
+    EXPECT_EQ(precise_cos_sin(1e-300).sin, 1e-300);
 }
 
 TEST(Radians, ArcsAreWithinTheirError) {
