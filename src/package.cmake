@@ -123,7 +123,7 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 # What stippleConfig.cmake finds and a static library is linked with.
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-    "libfmt-dev, libmuparser-dev, libpng-dev, libtbb-dev, libzstd-dev, zlib1g-dev, pkgconf")
+    "libfmt-dev, libpng-dev, libtbb-dev, libzstd-dev, zlib1g-dev, pkgconf")
 if(STIPPLE_FFT STREQUAL fftw)
   string(APPEND CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS ", libfftw3-dev")
 endif()

@@ -84,7 +84,7 @@ TEST(Help, VersionNamesTheLibraries) {
     const Outcome outcome = box.run({"--version"});
     EXPECT_TRUE(outcome.out.starts_with("stipple ")) << outcome.out;
     for (const char* name :
-         {"CLI11", "fmt", "nlohmann-json", "oneTBB", "Boost", "Random123", "libpng", "muParser"})
+         {"CLI11", "fmt", "nlohmann-json", "oneTBB", "Boost", "Random123", "libpng"})
         EXPECT_THAT(outcome.out, HasSubstr(name));
     EXPECT_THAT(outcome.out, HasSubstr(fft_library()));
     EXPECT_THAT(outcome.out, HasSubstr(fft_library().starts_with("fftw")

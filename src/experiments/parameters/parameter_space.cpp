@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/error.hpp"
 #include "math/densities/affine.hpp"
@@ -46,19 +47,10 @@ UniformRange uniform_range(const Parameter& parameter) {
 /// polytope may have.
 std::optional<std::vector<HalfSpace>> half_spaces(const Expression& constraint) {
     constexpr std::size_t most = 12;
-    VariableNames own = constraint.variables();
-    if (own.size() > most) return std::nullopt;
-    for (std::size_t i = 0; i < own.size(); ++i) own[i].second = i;
-    auto all = affine_inequalities(constraint.plain(), own, own.size());
-    for (std::size_t i = 0; all && i < all->size(); ++i) {
-        HalfSpace& half = (*all)[i];
-        std::vector<double> normal(constraint.dimension());
-        for (std::size_t j = 0; j < own.size(); ++j)
-            normal[constraint.variables()[j].second] += half.normal[j];
-        half.normal = std::move(normal);
-        half.text = constraint.text();
-    }
-    return all;
+    std::set<std::size_t> used;
+    for (const FormulaStep& step : constraint.steps())
+        if (step.kind == FormulaStep::coordinate) used.insert(step.index);
+    return used.size() > most ? std::nullopt : affine_inequalities(constraint);
 }
 
 /// Makes a polytope from the linear constraints and removes them from the list; nullopt if there

@@ -11,7 +11,6 @@
 #pragma once
 
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "math/densities/expression.hpp"
@@ -21,9 +20,6 @@ namespace stipple {
 
 /// Half-spaces whose intersection a formula describes, each with the formula's whole text; nullopt
 /// if the formula has another form.
-/// @param text a formula that Expression accepts
-std::optional<std::vector<HalfSpace>> affine_inequalities(std::string_view text,
-                                                          const VariableNames& variables,
-                                                          std::size_t dimension);
+std::optional<std::vector<HalfSpace>> affine_inequalities(const Expression& formula);
 
 }  // namespace stipple

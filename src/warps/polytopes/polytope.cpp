@@ -93,7 +93,7 @@ std::vector<HalfSpace> half_spaces(std::string_view text, std::size_t d, std::st
     std::vector<HalfSpace> all;
     for (const auto part : parts_of(text)) {
         const Expression formula(constraints.name, part, d);
-        auto cuts = affine_inequalities(formula.text(), usual_variables(d), d);
+        auto cuts = affine_inequalities(formula);
         if (!cuts)
             fail(ErrorKind::usage,
                  "--constraints: '{}' is not a linear inequality; expected one such as "

@@ -2,6 +2,7 @@
 #include "math/densities/expression.hpp"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,6 +32,10 @@ TEST(Expression, FollowsTheRulesOfArithmetic) {
     EXPECT_EQ(value("-2^2"), -4);
     EXPECT_EQ(value("2^3^2"), 512);
     EXPECT_EQ(value("2^-1"), 0.5);
+    EXPECT_EQ(value("2^-1^2*3 - -4"), 5.5);
+    EXPECT_EQ(value("-x^2/-y + +2"), 2.125);
+    EXPECT_EQ(value("0 ? 1 : 2 ? 0 ? 3 : 4 : 5"), 4);
+    EXPECT_EQ(value("1 || 0 && 0"), 1);
     EXPECT_EQ(value("(x + y) * 4"), 3);
     EXPECT_EQ(value("x1 + x2"), 0.75);
     EXPECT_EQ(value("x < y ? 7 : 8"), 7);
@@ -96,16 +101,61 @@ TEST(Expression, FunctionsAtTheirEdges) {
     EXPECT_EQ(value("acos(-1)"), M_PI);
     EXPECT_TRUE(std::isnan(value("asin(1.1)")));
     EXPECT_EQ(value("tanh(1000) + tanh(-1000)"), 0);
+    EXPECT_EQ(value("sinh(-1000)"), -INFINITY);
+    EXPECT_TRUE(std::isnan(value("tanh(log(-1))")));
+    EXPECT_TRUE(std::isnan(value("sinh(-log(-1))")));
+    EXPECT_EQ(value("log(-1) ? 1 : 2"), 1);
+    EXPECT_EQ(value("min(1, log(-1)) + max(2, log(-1))"), 3);
+    EXPECT_TRUE(std::isnan(value("min(log(-1), 1)")));
     EXPECT_EQ(value("sin(0)"), 0);
 }
 
+// Conditions that differ from point to point divide a block.
 TEST(Expression, BlocksAreTheSameAsSinglePoints) {
-    const Expression f("density", "exp(-x*y) + x", 2);
-    std::vector<double> points(200);
+    std::vector<double> points(2000);
     Rng(4).fill(0, points);
-    std::vector<double> values(100);
+    std::vector<double> values(1000);
+    for (const char* text :
+         {"exp(-x*y) + x", "3", "y", "x^2 - x^y + sin(9*x)", "x < y ? x : -y",
+          "x < 0.2 ? 1 : x < 0.5 ? (y < 0.3 ? sin(x) : x/y) : y < 2 ? x - y : 1/0",
+          "max(x < y ? x < 0.5 ? 1 : 2 : 3, 2*y, (x < y ? 2 : y)) + (y > 2 ? 1 : x)"}) {
+        const Expression f("density", text, 2);
+        f.evaluate(points, values);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            ASSERT_EQ(values[i], f.at({&points[2 * i], 2})) << text << " " << i;
+    }
+}
+
+// They take linear time, and a stack that does not depend on their length.
+TEST(Expression, ReadsLongFormulas) {
+    std::string sum = "x", steps, all = "max(0";
+    for (std::size_t i = 0; i < 100'000; ++i) {
+        sum += " + x";
+        steps += fmt::format("x < {} ? {} : ", i, 2 * i);
+        all += fmt::format(", x*{}", i);
+    }
+    EXPECT_EQ(value(sum, {0.5}), 50'000.5);
+    EXPECT_EQ(value(steps + "7", {500.5}), 1002);
+    EXPECT_EQ(value(all + ")", {2}), 199'998);
+    const Expression f("density", steps + "7", 1);
+    const std::vector<double> points = {99'999.5, 0.5, 3, -1, 7.5, 99'998.5};
+    std::vector<double> values(points.size());
     f.evaluate(points, values);
-    for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(values[i], f.at({&points[2 * i], 2}));
+    EXPECT_EQ(values, (std::vector<double>{7, 2, 8, 0, 16, 199'998}));
+}
+
+TEST(Expression, RefusesDeeplyNestedFormulas) {
+    for (const auto& [open, close] :
+         {std::pair{"(", ")"}, {"sin(", ")"}, {"x ? ", " : 1"}, {"2^", ""}}) {
+        std::string left, right;
+        for (std::size_t i = 0; i < 500; ++i) {
+            left += open;
+            right += close;
+        }
+        EXPECT_EQ(refused(left + "x" + right), "") << open;
+        for (std::size_t i = 0; i < 100'000; ++i) left += open;
+        EXPECT_THAT(refused(left), ::testing::EndsWith("expected at most 500 nested formulas"));
+    }
 }
 
 TEST(Expression, IsSafeToUseFromThreads) {
@@ -126,11 +176,10 @@ TEST(Expression, IsSafeToUseFromThreads) {
 TEST(Expression, SaysWhereItEndsTooEarly) {
     const std::string value = "a number, a variable, a function or '('";
     const std::vector<std::tuple<std::string, int, std::string>> cases = {
-        {"((x)", 5, "')'"},   {"((x) + 2  ", 9, "')'"},
-        {"sin(x", 6, "')'"},  {"2*x+", 5, value},
-        {"x ^ ", 4, value},   {"x &&", 5, value},
-        {"-", 2, value},      {"sin(", 5, value},
-        {"max(x,", 7, value}, {"x ? 1", 6, "':' and the value otherwise"}};
+        {"((x)", 5, "')'"}, {"((x) + 2  ", 9, "')'"}, {"sin(x", 6, "')'"},
+        {"2*x+", 5, value}, {"(-", 3, value},         {"(x ? 1", 7, "')'"},
+        {"x ^ ", 4, value}, {"x &&", 5, value},       {"-", 2, value},
+        {"sin(", 5, value}, {"max(x,", 7, value},     {"x ? 1", 6, "':' and the value otherwise"}};
     for (const auto& [text, column, wanted] : cases)
         EXPECT_EQ(refused(text),
                   fmt::format("usage: --density: '{}': the formula ends at column {}, where {} was "
@@ -162,7 +211,15 @@ TEST(Expression, SaysAtWhichColumnWhatIsExpected) {
          "column 3: '\u00d7': expected a number, an operator, x, y, pi, e or a function such as "
          "exp"},
         {"sin x", "column 1: 'sin': expected '(' after it"},
-        {"x~y", "column 2: '~': expected a number, a variable or an operator"}};
+        {"x~y", "column 2: '~': expected a number, a variable or an operator"},
+        {"--x", "column 2: '-': expected a number, a variable, a function or '(' before it"},
+        {"x ^^ 2",
+         "column 4: '^': expected a number, an operator, x, y, pi, e or a function such as exp"},
+        {"1 + (x,y)",
+         "column 7: ',': expected one formula; commas only separate arguments of a function"},
+        {"(x ? 1)", "column 7: ')': expected ':' and the value otherwise before it"},
+        {"x : 1", "column 3: ':': expected a '?' before it"},
+        {"max()", "column 5: 'max': expected more arguments"}};
     for (const auto& [text, message] : cases)
         EXPECT_EQ(refused(text), "usage: --density: '" + text + "', " + message);
     for (const char* text : {"1e400", "\"abc\"", "(x+", "max()", "sin", "x**2", "!x", "2e", "z",
