@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "math/densities/expression.hpp"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +12,12 @@
 #include <type_traits>
 
 #include "core/options.hpp"
+#include "core/text.hpp"
 #include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"
 #include "math/functions/powers.hpp"
+#include "math/functions/radians.hpp"
 #include "math/functions/roots.hpp"
-#include "math/functions/trigonometry.hpp"
 
 namespace stipple {
 namespace {
@@ -27,16 +28,7 @@ constexpr double whole_turn = 2 * std::numbers::pi;
 
 // Functions for formulas: the functions of src/math, extended to arguments outside their domains.
 
-[[gnu::always_inline]] inline CosSin turned(double x) {
-    const double turns = std::abs(x) / whole_turn;
-    // The fraction without std::floor, whose call would keep loops from being vectorised.
-    constexpr double large = 0x1p52;
-    const double near = (turns + large) - large;
-    const double fraction = turns - (near > turns ? near - 1 : near);
-    const auto [c, s] = cos_sin_turns(turns < large ? fraction : 0);
-    const bool finite = std::isfinite(x);
-    return {finite ? c : nan, finite ? (x < 0 ? -s : s) : nan};
-}
+CosSin turned(double x) { return std::isfinite(x) ? precise_cos_sin(x) : CosSin{nan, nan}; }
 
 /// Angle in (-pi, pi], equally precise on both sides of the x axis.
 double angle(double y, double x) {
@@ -47,17 +39,36 @@ double angle(double y, double x) {
     return std::copysign(whole_turn * turns_of(wide, std::abs(high)), high);
 }
 
-double exp_of(double x) { return x > 709 ? infinity : (std::isnan(x) ? nan : exponential(x)); }
+double exp_of(double x) {
+    if (std::isnan(x)) return nan;
+    if (std::abs(x) <= 708) return exponential(x);
+    const double root = exponential(std::clamp(x / 2, -500.0, 500.0));
+    return root * root;
+}
+/// exp(x) / 2, which may be finite where exp(x) is not.
+double half_exp(double x) {
+    const double root = exp_of(x / 2);
+    return 0.5 * root * root;
+}
 double log_of(double x) {
     if (x == infinity) return infinity;
     return x > 0 ? logarithm(x) : (x == 0 ? -infinity : nan);
 }
+/// Logarithm in another base; whole numbers are exact.
+/// @param per_log 1 / log(base)
+double log_of(double x, const DoubleDouble& per_log) {
+    if (!(x > 0 && x < infinity)) return log_of(x);
+    return (logarithm_parts(x) * per_log).high;
+}
+constexpr DoubleDouble per_log_2 = {0x1.71547652b82fep+0, 0x1.777d0ffda0d24p-56};
+constexpr DoubleDouble per_log_10 = {0x1.bcb7b1526e50ep-2, 0x1.95355baaafad3p-57};
 double sinh_of(double x) {
-    if (!(std::abs(x) <= 709)) return x * infinity;
+    if (!(std::abs(x) <= 708)) return std::copysign(half_exp(std::abs(x)), x);
     const double rise = exp_minus_1(std::abs(x));
     return std::copysign(0.5 * (rise + rise / (rise + 1)), x);
 }
 double cosh_of(double x) {
+    if (std::abs(x) > 708) return half_exp(std::abs(x));
     const double up = exp_of(std::abs(x));
     return 0.5 * (up + 1 / up);
 }
@@ -68,6 +79,25 @@ double tanh_of(double x) {
     return std::copysign(rise / (rise + 2), x);
 }
 
+/// x^y for a whole number |y| <= 1800, rounded about once: exact if a double holds it.
+double whole(double x, double y) {
+    int exponent = 0;
+    double fraction = std::frexp(x, &exponent);
+    if (std::abs(fraction) < std::numbers::sqrt2 / 2) {  // its powers stay within 2^900 and 2^-900
+        fraction *= 2;
+        --exponent;
+    }
+    DoubleDouble square{fraction, 0};
+    const auto size = static_cast<int>(std::abs(y));
+    DoubleDouble product{1, 0};
+    for (int n = size; n > 0; n /= 2) {
+        if (n % 2 != 0) product = product * square;
+        if (n > 1) square = square * square;
+    }
+    const int shift = size * exponent;
+    return y < 0 ? std::ldexp(1 / product.high, -shift) : std::ldexp(product.high, shift);
+}
+
 double power(double x, double y) {
     if (std::isnan(x) || std::isnan(y)) return nan;
     // Small integer exponents use multiplications, as if written out.
@@ -76,6 +106,7 @@ double power(double x, double y) {
         return y < 0 ? 1 / up : up;
     }
     if (y == 0.5) return std::sqrt(x);
+    if (y == std::floor(y) && std::abs(y) <= 1800 && std::isnormal(x)) return whole(x, y);
     const bool odd = std::abs(y) < 0x1p53 && std::floor(y / 2) * 2 != y;
     if (x < 0 && y != std::floor(y)) return nan;
     if (!std::isfinite(x) || !std::isfinite(y)) {
@@ -83,8 +114,22 @@ double power(double x, double y) {
         const bool grows = (size > 1) == (y > 0);
         return size == 1 ? 1 : (grows ? infinity : 0);
     }
-    const double size = real_power(std::abs(x), y);
+    double size = real_power(std::abs(x), y);
+    if (x != 0 && (size == 0 || size == infinity)) {  // may be just inside the range of doubles
+        const double root = real_power(std::abs(x), y / 2);
+        size = root * root;
+    }
     return x < 0 && odd ? -size : size;
+}
+
+double hypotenuse(double x, double y) {
+    const double squares = x * x + y * y;
+    if (squares > 1e-280 && squares < infinity) return std::sqrt(squares);
+    const double larger = std::max(std::abs(x), std::abs(y));
+    if (!(larger > 0 && larger < infinity)) return std::abs(x) + std::abs(y);
+    const int scale = std::ilogb(larger);
+    const double a = std::ldexp(x, -scale), b = std::ldexp(y, -scale);
+    return std::ldexp(std::sqrt(a * a + b * b), scale);
 }
 
 /// Powers, of which squares are the most frequent.
@@ -146,8 +191,8 @@ constexpr FormulaOperation operations[] = {
     in_blocks("exp", 0, [](D x) { return exp_of(x); }),
     in_blocks("log", 0, [](D x) { return log_of(x); }),
     in_blocks("ln", 0, [](D x) { return log_of(x); }),
-    in_blocks("log2", 0, [](D x) { return log_of(x) / std::numbers::ln2; }),
-    in_blocks("log10", 0, [](D x) { return log_of(x) / std::numbers::ln10; }),
+    in_blocks("log2", 0, [](D x) { return log_of(x, per_log_2); }),
+    in_blocks("log10", 0, [](D x) { return log_of(x, per_log_10); }),
     in_blocks("sqrt", 0, [](D x) { return std::sqrt(x); }),
     in_blocks("cbrt", 0, [](D x) { return std::isfinite(x) ? cube_root(x) : x; }),
     in_blocks("abs", 0, [](D x) { return std::abs(x); }),
@@ -158,7 +203,7 @@ constexpr FormulaOperation operations[] = {
     in_blocks("atan2", 0, [](D y, D x) { return angle(y, x); }),
     {"pow", 2, 0, power, powers},
     in_blocks("mod", 0, [](D x, D y) { return std::fmod(x, y); }),  // exact, hence portable
-    in_blocks("hypot", 0, [](D x, D y) { return std::sqrt(x * x + y * y); }),
+    in_blocks("hypot", 0, [](D x, D y) { return hypotenuse(x, y); }),
     in_pairs("min", [](D x, D y) { return y < x ? y : x; }),
     in_pairs("max", [](D x, D y) { return x < y ? y : x; }),
 };
@@ -307,7 +352,7 @@ std::span<const FormulaOperation> formula_operations() { return operations; }
 
 std::string place_text(std::span<const double> point) {
     if (point.size() == 1) return fmt::format("x = {}", point[0]);
-    return fmt::format("({})", fmt::join(point, ", "));
+    return fmt::format("({})", join(point, ", "));
 }
 
 }  // namespace stipple

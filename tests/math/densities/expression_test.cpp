@@ -110,6 +110,35 @@ TEST(Expression, FunctionsAtTheirEdges) {
     EXPECT_EQ(value("sin(0)"), 0);
 }
 
+TEST(Expression, WholeResultsAreExact) {
+    for (int k = -307; k <= 308; ++k)
+        EXPECT_EQ(value(fmt::format("log10(1e{})", k)), k) << k;
+    for (int k = -1074; k <= 1023; ++k)
+        EXPECT_EQ(value("log2(x)", {std::ldexp(1, k)}), k) << k;
+    for (int k = -1074; k <= 1023; ++k)
+        EXPECT_EQ(value(fmt::format("2^({})", k)), std::ldexp(1, k)) << k;
+    EXPECT_EQ(value("3^33 - 5559060566555523"), 0);
+    EXPECT_EQ(value("(-7)^18 - 1628413597910449"), 0);
+    EXPECT_EQ(value("(-3)^33 + 5559060566555523"), 0);
+    EXPECT_EQ(value("hypot(3, 4)"), 5);
+}
+
+// Expected values from mpmath.
+TEST(Expression, HugeAndTinyArgumentsAndResults) {
+    EXPECT_DOUBLE_EQ(value("sin(1e22)"), -0.8522008497671888);
+    EXPECT_DOUBLE_EQ(value("sin(-1e15)"), -0.8582727931702359);
+    EXPECT_DOUBLE_EQ(value("tan(1e6)"), -0.373624453987599);
+    EXPECT_DOUBLE_EQ(value("exp(709.7)"), 1.6549840276802644e308);
+    EXPECT_DOUBLE_EQ(value("cosh(-710)"), 1.1169973830808557e308);
+    EXPECT_DOUBLE_EQ(value("sinh(-710)"), -1.1169973830808557e308);
+    EXPECT_DOUBLE_EQ(value("hypot(3e200, 4e200)"), 5e200);
+    EXPECT_DOUBLE_EQ(value("hypot(3e-200, -4e-200)"), 5e-200);
+    EXPECT_DOUBLE_EQ(value("1.1^100"), 13780.61233982238);
+    EXPECT_DOUBLE_EQ(value("10^307.9"), 7.943282347242399e307);
+    EXPECT_NEAR(value("exp(-720)"), 2.0322308e-313, 1e-320);
+    EXPECT_NEAR(value("10^(-310)"), 1e-310, 1e-320);
+}
+
 // Conditions that differ from point to point divide a block.
 TEST(Expression, BlocksAreTheSameAsSinglePoints) {
     std::vector<double> points(2000);
