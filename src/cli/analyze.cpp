@@ -327,9 +327,11 @@ class AnalyzeCall {
                 .from = [=](std::uint64_t first) { return generated->stream(0, run, first); }};
     }
 
-    /// The run of this rank; only rank 0 reports progress and warnings.
+    /// The run of this rank, with its share of the machine's memory; only rank 0 reports progress
+    /// and warnings.
     [[nodiscard]] RunContext own_run() const {
         RunContext run = session_.run();
+        run.max_memory /= static_cast<std::uint64_t>(ranks_.on_machine());
         run.threads = threads_of(ranks_, run);
         if (ranks_.rank() == 0) return run;
         run.progress = {};
@@ -345,7 +347,7 @@ class AnalyzeCall {
         agreed(ranks_, [&] {
             const std::size_t d = set.points.dimension();
             const std::size_t size = *set.points.count * d;
-            run.need_memory(8.0 * static_cast<double>(size), "the points");
+            run.need_memory(8.0 * static_cast<double>(size), "the set of points");
             std::vector<double> rows(size);
             set.from(0)(rows);
             points.emplace(std::move(rows), d);

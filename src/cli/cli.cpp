@@ -60,7 +60,7 @@ int dispatch(const Arguments& arguments) {
 /// Prints the error that ends the program in one line, except if another process does. Returns the
 /// exit code.
 int end_with(std::string_view verb, const Error& error) {
-    const Error cause = shared_failure(error);
+    const Error cause = shared_failure(verb, error);
     const std::string what = cause.what();
     if (!is_mute(verb)) say_line(cause.hint().empty() ? what : what + "; " + cause.hint());
     return exit_code(cause.kind());

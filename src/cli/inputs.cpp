@@ -370,8 +370,11 @@ SharedSet shared_files(const Sources& from, const Analyzer& analyzer, const std:
         return open_file(path, from, strengths, run);
     };
     const SharedSet shared = shared_in_files(from.inputs, open, ranks, run);
-    Arrival points =
-        arrival_of(*open(from.inputs.front()), !strengths.empty(), analyzer, from, run);
+    const auto front = open(from.inputs.front());
+    const bool own = from.columns.empty() && !from.parameters;
+    const std::string domain = from.domain.value_or(own ? front->provenance().domain : "");
+    if (!from.bounds) require_same_files(files_in(domain, " x "), ranks, run);
+    Arrival points = arrival_of(*front, !strengths.empty(), analyzer, from, run);
     points.count = shared.points.count;
     return {.points = points, .from = [=, &analyzer, &from](std::uint64_t first) {
                 return within_bounds(shared.from(first), points, first, analyzer, from);

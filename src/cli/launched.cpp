@@ -65,6 +65,7 @@ Ranks& launched(const Arguments& arguments, const RunContext& run) {
                        "{}: an MPI launcher started {} processes, and this build has no MPI", verb,
                        started);
     joined() = join_ranks(run.stop, request_stop);
+    agreed(*joined(), [] {});  // a rank whose arguments are wrong reports that here
     if (joined()->size() == 1)
         fail_with_hint(ErrorKind::usage, "start them by mpirun, or by srun --mpi=pmix",
                        "{}: a launcher started {} processes, which do not find each other by MPI",
@@ -83,8 +84,17 @@ Ranks& joined_ranks() {
     return joined() ? *joined() : alone;
 }
 
-Error shared_failure(const Error& error) {
-    return joined() ? joined()->fail_together(error) : error;
+Error shared_failure(std::string_view verb, const Error& error) {
+    if (joined()) return joined()->fail_together(error);
+    const bool others_join = has_mpi() && is_shared(verb) && launched_ranks() > 1;
+    if (!others_join || error.kind() == ErrorKind::cancelled) return error;
+    try {
+        joined() = join_ranks({}, request_stop);
+        agreed(*joined(), [&] { throw Error(error); });
+    } catch (const Error& first) {
+        return first;
+    }
+    return error;
 }
 
 void leave_ranks() { joined().reset(); }

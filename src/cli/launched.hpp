@@ -36,8 +36,8 @@ Ranks& launched(const Arguments& arguments, const RunContext& run);
 Ranks& joined_ranks();
 
 /// The error to report for this process: its own, which is then sent to the other ranks, or that of
-/// a rank that failed earlier.
-Error shared_failure(const Error& error);
+/// a rank that failed earlier. Joins the ranks first if they share the verb.
+Error shared_failure(std::string_view verb, const Error& error);
 
 /// Leaves the ranks. Call it after all messages: a launcher ends all processes when one fails.
 void leave_ranks();

@@ -328,11 +328,12 @@ class Study {
 }  // namespace
 
 int StudyRequest::perform(Session& session) const {
-    if (reads_table(*this)) {
-        summarize_table(*this, session.run());
+    Ranks& ranks = launched(*this, session.run());
+    const bool reads = !ranks.exchange(reads_table(*this) ? "reads" : "").front().empty();
+    if (reads) {  // as rank 0 decides, which alone writes
+        if (ranks.rank() == 0) summarize_table(*this, session.run());
         return 0;
     }
-    Ranks& ranks = launched(*this, session.run());
     std::optional<StudyRequest> completed;
     std::optional<Study> study;
     try {

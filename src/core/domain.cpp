@@ -103,7 +103,7 @@ DomainPtr box_domain(Box box) {
 
 Box parse_box(std::string_view text, std::size_t dimension) {
     Box box;
-    for (const auto part : split_formulas(text, ',')) {
+    for (const auto part : split_outside("()", text, ",")) {
         const auto dots = part.find("..");
         const auto low = parse_formula("bounds", trim(part.substr(0, dots)));
         const auto high = dots == std::string_view::npos

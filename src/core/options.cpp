@@ -139,9 +139,9 @@ std::vector<double> parse_numbers(std::string_view option, std::string_view text
         numbers_option.name = option;
         refuse(numbers_option, text, "a list of numbers such as 0.5,1");
     };
-    for (const auto part : split_formulas(text, ',')) {
+    for (const auto part : split_outside("()", text, ",")) {
         const std::size_t before = numbers.size();
-        for (const auto word : split_formulas(trim(part), ' ')) {
+        for (const auto word : split_outside("()", trim(part), " ")) {
             auto value = parse_number(word);
             if (const auto whole = parse_integer(word); whole && !value)  // 2^20, 64k
                 value = static_cast<double>(*whole);

@@ -142,15 +142,16 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     return parts;
 }
 
-std::vector<std::string_view> split_formulas(std::string_view text, char separator) {
+std::vector<std::string_view> split_outside(std::string_view brackets, std::string_view text,
+                                            std::string_view separator) {
     std::vector<std::string_view> parts;
     std::size_t begin = 0;
     int open = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {
-        open += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
-        if (text[i] != separator || open > 0) continue;
+        open += text[i] == brackets[0] ? 1 : text[i] == brackets[1] ? -1 : 0;
+        if (open > 0 || !text.substr(i).starts_with(separator)) continue;
         parts.push_back(text.substr(begin, i - begin));
-        begin = i + 1;
+        begin = i + separator.size();
     }
     if (!text.empty()) parts.push_back(text.substr(begin));
     return parts;

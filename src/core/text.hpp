@@ -39,8 +39,9 @@ void replace_all(std::string& text, std::string_view from, std::string_view to);
 /// Parts between separators; "a,b" -> {"a", "b"}, "" -> {}.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
-/// As split(), but ignores separators in parentheses: "1,min(2,3)" -> {"1", "min(2,3)"}.
-std::vector<std::string_view> split_formulas(std::string_view text, char separator);
+/// As split(), but ignores separators in brackets: "1,min(2,3)" -> {"1", "min(2,3)"} for "()".
+std::vector<std::string_view> split_outside(std::string_view brackets, std::string_view text,
+                                            std::string_view separator);
 
 std::string join(std::span<const std::string> words, std::string_view between);
 /// Numbers as format_number() writes them.

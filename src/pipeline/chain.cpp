@@ -475,8 +475,12 @@ std::vector<std::string> files_of(const Schema& schema, const Values& values,
     for (const Option& option : schema.options()) {
         const auto& item = values.find(option.name);
         const bool output = std::ranges::find(written, option.name) != written.end();
-        if (option.type == "file" && item.given && !output)
-            files.push_back(std::get<std::string>(item.value));
+        if (!item.given || output) continue;
+        if (option.type == "file") files.push_back(std::get<std::string>(item.value));
+        if (option.unit == "generator" || option.unit == "warps")
+            std::ranges::move(
+                files_in(std::get<std::string>(item.value), "|", option.unit == "generator"),
+                std::back_inserter(files));
     }
     return files;
 }
@@ -488,6 +492,21 @@ std::vector<std::string> files_of(const Generator& generator, const Values& valu
         const Scramble* scramble = scramble_named(spec.name);
         const Schema& schema = scramble ? scramble->options : find_warp(spec.name).options;
         std::ranges::move(files_of(schema, spec.values(schema)), std::back_inserter(files));
+    }
+    return files;
+}
+
+std::vector<std::string> files_in(std::string_view specs, std::string_view separator,
+                                  bool generators) {
+    std::vector<std::string> files;
+    for (const auto part : split_outside("[]", specs, separator)) {
+        try {
+            const Spec spec = parse_spec(part);
+            const Schema& schema =
+                generators ? find_generator(spec.name).options : find_warp(spec.name).options;
+            std::ranges::move(files_of(schema, spec.values(schema)), std::back_inserter(files));
+        } catch (const Error&) {  // reported by the specs' user; unit-cube is no warp
+        }
     }
     return files;
 }

@@ -199,7 +199,7 @@ void tell_kept(const WarpChain& chain, std::uint64_t count, std::uint64_t kept,
 std::vector<double> gather(std::span<const double> rows, std::size_t width,
                            std::span<const std::size_t> columns);
 
-/// Returns the input files that options name, in order.
+/// Returns the input files that options name, also in specs of other units, in order.
 /// @param written options that name output files
 std::vector<std::string> files_of(const Schema& schema, const Values& values,
                                   std::span<const std::string> written = {});
@@ -207,6 +207,10 @@ std::vector<std::string> files_of(const Schema& schema, const Values& values,
 /// Returns the input files that a generator's options and its warps name.
 std::vector<std::string> files_of(const Generator& generator, const Values& values,
                                   std::span<const Spec> warps);
+
+/// Returns the input files that specs of generators or warps name, without those of wrong specs.
+std::vector<std::string> files_in(std::string_view specs, std::string_view separator,
+                                  bool generators = false);
 
 /// Recorded instead of a fingerprint for input that cannot be read again, such as a pipe.
 inline constexpr std::string_view not_kept = "not kept";

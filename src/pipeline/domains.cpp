@@ -71,17 +71,6 @@ std::vector<Factor> warped_factors(const DomainPtr& domain, std::span<const std:
 
 namespace {
 
-/// Position of the separator " x " after the first factor of a domain; npos if there is only one
-/// factor. Ignores it in brackets, where it may be part of a file's name.
-std::size_t end_of_factor(std::string_view text) {
-    int open = 0;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] == '[' || text[i] == ']') open += text[i] == '[' ? 1 : -1;
-        if (open == 0 && text.substr(i).starts_with(" x ")) return i;
-    }
-    return std::string_view::npos;
-}
-
 /// Returns the warp whose domain has this name.
 /// @throws Error(usage)
 const Warp& warp_of_domain(const std::string& name) {
@@ -102,10 +91,8 @@ const Warp& warp_of_domain(const std::string& name) {
 std::vector<Factor> parse_factors(std::string_view text, std::size_t dimension,
                                   const RunContext& run) {
     std::vector<Factor> factors;
-    while (!text.empty()) {
-        const auto times = end_of_factor(text);
-        Spec spec = parse_spec(text.substr(0, times));
-        text = times == std::string_view::npos ? std::string_view() : text.substr(times + 3);
+    for (const auto part : split_outside("[]", text, " x ")) {
+        Spec spec = parse_spec(part);
         const std::size_t given = spec.coordinates.empty() ? dimension : spec.coordinates.size();
         DomainPtr domain;
         if (spec.name == "unit-cube") {

@@ -206,7 +206,7 @@ std::optional<Found> analyze_shared(const Analyzer& analyzer, const SharedSet& s
                                     const Values& options, Ranks& ranks, const RunContext& run) {
     if (set.points.count == 0U)
         fail(ErrorKind::input, "{} needs at least one point; the set is empty", analyzer.name);
-    RunContext mine = run.share_of_memory(static_cast<std::uint64_t>(ranks.on_machine()));
+    RunContext mine = run;
     mine.threads = threads_of(ranks, run);
     std::shared_ptr<SharedAccumulator> measure;
     agreed(ranks, [&] { measure = counted_in(analyzer, set, options, ranks, mine); });

@@ -151,6 +151,18 @@ TEST(Ranks, EndTogetherWhereOneFails) {
                 HasSubstr("4 " + rank_1 + "c.json: no such file"));
 }
 
+// 1e6 points take 15 MiB, more than half of the limit.
+TEST(Ranks, ShareTheMemoryOfTheirMachine) {
+    if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
+    const Sandbox box;
+    if (!can_launch()) GTEST_SKIP() << "no MPI, or no launcher";
+    const Outcome outcome = box.shell(
+        mpirun + "-n 2 stipple analyze star-discrepancy --generate random -n 1e6 --max-memory 24M");
+    EXPECT_EQ(outcome.code, 5);
+    EXPECT_THAT(outcome.err,
+                HasSubstr("the set of points needs 15.3 MiB of memory; the limit is 12 MiB"));
+}
+
 // Every file that an option names is compared, as those of points are. Rank 1 reads its own.
 TEST(Ranks, CompareAllFilesThatOptionsName) {
     if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
@@ -166,10 +178,14 @@ TEST(Ranks, CompareAllFilesThatOptionsName) {
                   first ? "x,y\n0.1,0.2\n0.3,0.4\n0.5,0.5\n" : "x,y\n0.1,0.2\n0.3,0.4\n0.5,0.6\n");
         box.write(at + "p.json", first ? R"({"parameters":[{"name":"a","range":[0,1]}]})"
                                        : R"({"parameters":[{"name":"a","range":[0,2]}]})");
+        box.write(at + "poly.csv", first ? "0,0\n1,0\n0,1\n" : "0,0\n1,0\n0,2\n");
         box.write(at + "nest.json", R"({"parameters":[{"name":"a","file":"v.txt"}]})");
         box.write(at + "c.json", first ? R"({"generators":["random"],"analyze":["moments"]})"
                                        : R"({"generators":["sobol"],"analyze":["moments"]})");
     }
+    good(
+        box.shell("cd r0 && stipple generate random -n 9 -w polygon:file=poly.csv --meta -o s.csv "
+                  "&& cp s.csv ../r1"));
     const auto told = [&](const std::string& folder, const std::string& command) {
         box.write("rank.sh", "cd r0; [ $OMPI_COMM_WORLD_RANK = 0 ] || cd ../" + folder +
                                  "\nexec timeout 60 \"$@\"\n");
@@ -186,6 +202,10 @@ TEST(Ranks, CompareAllFilesThatOptionsName) {
          {std::pair{moments + "-w empirical:file=v.txt", "v.txt"},
           {moments + "--parameters p.json", "p.json"},
           {"analyze star-discrepancy --generate subset:from=pool.csv -n 2", "pool.csv"},
+          {"analyze star-discrepancy --generate subset:of=[subset:from=pool.csv] -n 2", "pool.csv"},
+          {moments + "-w 'mixture:weights=1,components=empirical:file=v.txt'", "v.txt"},
+          {"analyze moments s.csv", "s.csv: poly.csv"},
+          {"analyze moments s.csv --domain 'polygon:file=poly.csv'", "s.csv: poly.csv"},
           {study + "random -w empirical:file=v.txt", "v.txt"},
           {study + "'random -w empirical:file=v.txt'", "v.txt"},
           {study + "subset:from=pool.csv", "pool.csv"},
@@ -217,6 +237,24 @@ TEST(Ranks, CompareTheirArguments) {
         EXPECT_EQ(outcome.out, "");
         EXPECT_THAT(outcome.err, HasSubstr("the arguments of rank 1 are not those of rank 0"));
     }
+    char host[256] = {};
+    ::gethostname(host, sizeof host - 1);
+    for (const std::string verb :
+         {"analyze moments --generate random", "study --generators random --analyze moments"}) {
+        const std::string command = "-n 1 stipple " + verb + " -n 8";
+        for (const int wrong : {0, 1}) {
+            const std::string first = command + (wrong == 0 ? "x : " : " : ");
+            const Outcome outcome = box.shell(mpirun + first + command + (wrong == 1 ? "x" : ""));
+            EXPECT_EQ(outcome.code, 2);
+            EXPECT_TRUE(outcome.err.starts_with(
+                fmt::format("stipple: rank {} on {}: --count: '8x' is not ", wrong, host)))
+                << outcome.err;
+        }
+        const Outcome both = box.shell(mpirun + command + "x : " + command + "x");
+        EXPECT_EQ(both.code, 2);
+        EXPECT_TRUE(both.err.starts_with("stipple: --count: '8x' is not ")) << both.err;
+        EXPECT_EQ(both.err.find("'8x'"), both.err.rfind("'8x'")) << both.err;
+    }
     box.write("a.csv", "x,y\n0.1,0.2\n0.3,0.4\n");
     box.write("b.csv", "x,y\n0.1,0.2\n0.3,0.4\n");
     const std::string alike = mpirun +
@@ -233,6 +271,16 @@ TEST(Ranks, OfWhichThereIsOneWriteAsIfAlone) {
     good(box.shell("stipple generate random -n 100 -o p.csv"));
     good(box.shell(mpirun + "-n 1 stipple analyze moments p.csv < /dev/null > r.json"));
     EXPECT_TRUE(box.read("r.json").starts_with("{"));
+}
+
+TEST(Ranks, SummarizeATableOnce) {
+    if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
+    const Sandbox box;
+    if (!can_launch()) GTEST_SKIP() << "no MPI, or no launcher";
+    good(
+        box.shell("stipple study --generators random --analyze moments --keys 'mean[0]' -o s.csv"));
+    const std::string wide = "stipple study s.csv --wide";
+    EXPECT_EQ(good(box.shell(mpirun + "-n 2 " + wide)), good(box.shell(wide)));
 }
 
 TEST(Ranks, AreToldByTheVersion) {

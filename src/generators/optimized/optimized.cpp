@@ -71,6 +71,7 @@ constexpr Param<double> effort{.name = "effort",
                                    "one core, less for few points"};
 constexpr Param<Text> initial{
     {.name = "initial",
+     .unit = "generator",
      .help = "Generator to start from instead of lattices and nets, such as sobol:scramble=owen"}};
 constexpr Param<Path> from{{.name = "from",
                             .unit = "file",

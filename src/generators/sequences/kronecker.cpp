@@ -116,7 +116,7 @@ Wide fraction_of_root(std::uint64_t p) {
 /// Values of formulas that are separated by commas. @throws Error(usage)
 std::vector<double> numbers_of(std::string_view text) {
     std::vector<double> numbers;
-    for (const auto part : split_formulas(text, ',')) {
+    for (const auto part : split_outside("()", text, ",")) {
         const auto plain = parse_number(part);
         numbers.push_back(plain ? *plain : formula_value(alpha.name, part));
         if (!std::isfinite(numbers.back()))

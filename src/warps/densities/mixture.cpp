@@ -62,6 +62,7 @@ constexpr Param<Numbers> weights{
 constexpr Param<Text> components{
     {.name = "components",
      .fallback = "henyey-greenstein:g=0.7|henyey-greenstein:g=-0.3",
+     .unit = "warps",
      .help = "Warps as specs, separated by |: 'cone:half-angle=10|hemisphere:method=cosine'"}};
 
 constexpr Param<bool> normalize{.name = "normalize", .help = "Divide the weights by their sum"};
@@ -304,20 +305,6 @@ class Mixture final : public Mapping {
     GuideTable shares_;  ///< cumulative weights of the components
 };
 
-/// Splits at | outside of brackets.
-std::vector<std::string> parts_of(std::string_view text) {
-    std::vector<std::string> parts(1);
-    int open = 0;
-    for (const char c : text) {
-        open += c == '[' ? 1 : (c == ']' ? -1 : 0);
-        if (c == '|' && open == 0)
-            parts.emplace_back();
-        else
-            parts.back() += c;
-    }
-    return parts;
-}
-
 const Warp& warp_of(const Spec& spec) {
     std::vector<std::string> names;
     for (const Warp& warp : all()) {
@@ -361,21 +348,23 @@ std::string space_of(const Component& part, const Warp& warp) {
     return m == 2 ? "directions in the plane" : "directions in space";
 }
 
-Component component_of(const std::string& text, std::size_t given, const RunContext& run,
+Component component_of(std::string_view text, std::size_t given, const RunContext& run,
                        std::string& space) {
     const Spec spec = parse_spec(text);
     if (!spec.coordinates.empty())
         fail(ErrorKind::usage, "--components: {} names coordinates, which components cannot choose",
              text);
     const Warp& warp = warp_of(spec);
-    Component part{.spec = text, .mapping = warp.make(spec.values(warp.options), given, run)};
+    Component part{.spec = std::string(text),
+                   .mapping = warp.make(spec.values(warp.options), given, run)};
     space = space_of(part, warp);
     return part;
 }
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const std::vector<double> given_weights = want.options[weights];
-    const auto texts = parts_of(want.options[components]);
+    const std::string all = want.options[components];
+    const auto texts = split_outside("[]", all, "|");
     if (given_weights.size() != texts.size())
         fail(ErrorKind::usage, "--weights: {} given for {} component{}; expected one for each",
              given_weights.size(), texts.size(), texts.size() == 1 ? "" : "s");

@@ -82,8 +82,8 @@ class PolytopeDomain final : public NamedDomain {
 
 std::vector<std::string_view> parts_of(std::string_view text) {
     std::vector<std::string_view> parts;
-    for (const auto some : split_formulas(text, ';'))
-        for (const auto part : split_formulas(some, ','))
+    for (const auto some : split_outside("()", text, ";"))
+        for (const auto part : split_outside("()", some, ","))
             if (!trim(part).empty()) parts.push_back(trim(part));
     return parts;
 }
