@@ -1,64 +1,71 @@
 # What belongs to the program besides itself, in the places where systems look for it, and packages:
 # `cpack --config build/release/CPackConfig.cmake` makes a .deb of each component (program, library,
 # and python where the module is built) and a .tar.gz. The program itself writes its manual pages
-# and completions when it is installed.
-set(words ${PROJECT_BINARY_DIR}/words)
+# and completions after it is built: an installation, perhaps by root, makes no files in the build folder.
 find_program(STIPPLE_GZIP gzip REQUIRED)
-install(CODE "
-  set(words ${words})
-  file(REMOVE_RECURSE \${words})
-  file(MAKE_DIRECTORY \${words}/man1 \${words}/man7)
-  function(run)
-    execute_process(COMMAND \${ARGN} COMMAND_ERROR_IS_FATAL ANY)
-  endfunction()
-  if(EXISTS $<TARGET_FILE:stipple>)  # the library can be installed alone
-    run($<TARGET_FILE:stipple> help --man -o \${words})
-    file(GLOB pages \${words}/*.1 \${words}/*.7)
-    run(${STIPPLE_GZIP} -9n \${pages})
-    run($<TARGET_FILE:stipple> completions bash OUTPUT_FILE \${words}/stipple)
-    run($<TARGET_FILE:stipple> completions zsh OUTPUT_FILE \${words}/_stipple)
-    run($<TARGET_FILE:stipple> completions fish OUTPUT_FILE \${words}/stipple.fish)
-  endif()
-  foreach(section 1 7)
-    file(GLOB pages \${words}/*.\${section}.gz)
-    file(COPY \${pages} DESTINATION \${words}/man\${section})
-  endforeach()
-  run(${STIPPLE_GZIP} -9nc ${PROJECT_SOURCE_DIR}/CHANGELOG.md OUTPUT_FILE \${words}/changelog.gz)
-  run(${STIPPLE_GZIP} -9nc ${PROJECT_BINARY_DIR}/changelog.Debian
-      OUTPUT_FILE \${words}/changelog.Debian.gz)
-" ALL_COMPONENTS)
-install(DIRECTORY ${words}/man1 ${words}/man7 DESTINATION ${CMAKE_INSTALL_MANDIR})
+set(words ${PROJECT_BINARY_DIR}/words)
+file(MAKE_DIRECTORY ${words})
+if(NOT CMAKE_CROSSCOMPILING OR CMAKE_CROSSCOMPILING_EMULATOR)
+  add_custom_command(TARGET stipple POST_BUILD WORKING_DIRECTORY ${words}
+    COMMAND ${CMAKE_COMMAND} -E rm -rf man && ${CMAKE_COMMAND} -E make_directory man
+    COMMAND stipple help --man -o man && ${STIPPLE_GZIP} -9n man/*.1 man/*.7
+    COMMAND stipple completions bash > stipple
+    COMMAND stipple completions zsh > _stipple
+    COMMAND stipple completions fish > stipple.fish)
+endif()
+foreach(section 1 7)
+  install(DIRECTORY ${words}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man${section}
+          FILES_MATCHING PATTERN "*.${section}.gz")
+endforeach()
 install(FILES ${words}/stipple DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 foreach(folder site-functions vendor-completions)  # the second is Debian's
   install(FILES ${words}/_stipple DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${folder})
 endforeach()
 install(FILES ${words}/stipple.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+# Exists before root installs, so that it remains its owner's.
+file(TOUCH ${PROJECT_BINARY_DIR}/install_manifest.txt)
+
+# The README without its way to build, and with pages as the program shows them, not as links.
+file(READ ${PROJECT_SOURCE_DIR}/README.md readme)
+string(REGEX REPLACE "\n## Get it\n.*(\n## A handful)" "\\1" readme "${readme}")
+string(REGEX REPLACE "([^!])\\[([^]]*)\\]\\(data/guide/([^)]*)[.]md\\)" "\\1\\2 (`stipple help \\3`)"
+  readme "${readme}")
+string(REGEX REPLACE "([^!])\\[([^]]*)\\]\\((data/[^)]*)\\)" "\\1\\2 (`\\3` of the sources)" readme "${readme}")
+string(REPLACE "see LICENSE" "see copyright" readme "${readme}")
+file(WRITE ${words}/README.md "${readme}")
 
 file(READ ${PROJECT_SOURCE_DIR}/LICENSE licence)
+string(REGEX REPLACE "^.*authors\n\n" "" licence "${licence}")
+string(REGEX REPLACE "\n$" "" licence " ${licence}")
+string(REPLACE "\n" "\n " licence "${licence}")
+string(REPLACE "\n \n" "\n .\n" licence "${licence}")
+set(comment "")
+set(pocketfft "")
 if(STIPPLE_FFT STREQUAL fftw)
-  set(fft_licence
-"Binaries are linked with FFTW, which is under the GNU General Public License, version 2 or later: as a
-whole, a binary is under that licence, which Debian systems have in /usr/share/common-licenses/GPL-2.")
+  set(comment " .
+ Binaries are linked with FFTW, which is under the GNU General Public License,
+ version 2 or later: as a whole, a binary is under that licence, which Debian
+ systems have in /usr/share/common-licenses/GPL-2.\n")
 else()
-  file(READ ${POCKETFFT_HEADER} fft_licence LIMIT 4000)
-  string(REGEX REPLACE "^[^*]*[*]+\n|[*]/.*" "" fft_licence "${fft_licence}")
-  string(PREPEND fft_licence "So is this binary, which has code of pocketfft in it:\n\n")
+  set(pocketfft "Files: pocketfft*
+Copyright: 2010-2019 Max-Planck-Society
+ 2019 Peter Bell
+ 2003, 2007-2014 Matteo Frigo
+ 2003, 2007-2014 Massachusetts Institute of Technology
+License: BSD-3-clause\n\n")
 endif()
 if(archives)
-  string(APPEND fft_licence "\n
-The program has libpng and zlib in it. Their licences are in /usr/share/doc/libpng-dev/copyright and
-/usr/share/doc/zlib1g-dev/copyright of Debian systems.")
+  string(APPEND comment " .
+ The program has libpng and zlib in it. Their licences are in
+ /usr/share/doc/libpng-dev/copyright and /usr/share/doc/zlib1g-dev/copyright of
+ Debian systems.\n")
 endif()
-file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/copyright @ONLY CONTENT
-"stipple ${PROJECT_VERSION}
-
-The sources are under this licence:
-
-@licence@
-@fft_licence@
-")
-install(FILES ${PROJECT_BINARY_DIR}/copyright ${words}/changelog.gz ${PROJECT_SOURCE_DIR}/README.md
+configure_file(copyright.in ${PROJECT_BINARY_DIR}/copyright @ONLY)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
+  ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
+install(FILES ${PROJECT_BINARY_DIR}/copyright ${words}/changelog.gz ${words}/README.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/data/overview.png DESTINATION ${CMAKE_INSTALL_DOCDIR}/data)
 
 # Only in packages of Debian: papers for each; examples for the library; the module where Debian's
 # Python looks, byte-compiled when it is installed. People without packages use pip.
@@ -75,6 +82,10 @@ file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/changelog.Debian @ONLY CONTENT
 
  -- @CPACK_PACKAGE_CONTACT@  @now@
 ")
+execute_process(COMMAND ${STIPPLE_GZIP} -9nc ${PROJECT_SOURCE_DIR}/CHANGELOG.md
+                OUTPUT_FILE ${words}/changelog.gz COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${STIPPLE_GZIP} -9nc ${PROJECT_BINARY_DIR}/changelog.Debian
+                OUTPUT_FILE ${words}/changelog.Debian.gz COMMAND_ERROR_IS_FATAL ANY)
 foreach(package IN LISTS packages)
   separate_arguments(package)
   list(POP_FRONT package component)
@@ -93,6 +104,11 @@ if(STIPPLE_PYTHON)
   install(TARGETS stipple_module LIBRARY DESTINATION ${modules} COMPONENT python EXCLUDE_FROM_ALL)
   install(DIRECTORY ${PROJECT_BINARY_DIR}/python/stipple/ DESTINATION ${modules}
           COMPONENT python EXCLUDE_FROM_ALL FILES_MATCHING REGEX "/(py.typed|[^/]*[.]pyi?)$")
+  execute_process(COMMAND ${Python3_EXECUTABLE} -Bc
+    "import stipple_build; stipple_build.prepare_metadata_for_build_wheel('${PROJECT_BINARY_DIR}/debian')"
+    WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/python COMMAND_ERROR_IS_FATAL ANY)
+  install(DIRECTORY ${PROJECT_BINARY_DIR}/debian/stipple-${PROJECT_VERSION}.dist-info
+          DESTINATION lib/python3/dist-packages COMPONENT python EXCLUDE_FROM_ALL)
   foreach(script "postinst py3compile" "prerm py3clean")
     separate_arguments(script)
     list(POP_FRONT script name tool)

@@ -48,15 +48,17 @@ def _metadata():
 
 def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
     info = Path(metadata_directory) / f"stipple-{version()}.dist-info"
-    info.mkdir()
+    info.mkdir(parents=True, exist_ok=True)
     (info / "METADATA").write_text(_metadata())
     return info.name
 
 
 def package_files(folder):
-    """Files of the package in a build folder: their names in the wheel, and contents."""
-    return {f"stipple/{path.name}": path.read_bytes()
-            for path in sorted((folder / "python" / "stipple").iterdir()) if path.is_file()}
+    """Files of the package in a build folder, with the licences of all that is compiled in: their names in the wheel,
+    and contents."""
+    files = {f"stipple/{path.name}": path.read_bytes()
+             for path in sorted((folder / "python" / "stipple").iterdir()) if path.is_file()}
+    return files | {f"stipple-{version()}.dist-info/licenses/copyright": (folder / "copyright").read_bytes()}
 
 
 def write_wheel(folder, platform, files):

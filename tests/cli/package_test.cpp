@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/text.hpp"
 #include "math/fourier/fft.hpp"
 #include "places.hpp"
 #include "support/program.hpp"
@@ -21,9 +22,14 @@ void expect_whole(const Sandbox& box, const std::string& prefix) {
           "share/man/man7/stipple-formats.7.gz", "share/bash-completion/completions/stipple",
           "share/zsh/site-functions/_stipple", "share/fish/vendor_completions.d/stipple.fish",
           "share/doc/stipple/copyright", "share/doc/stipple/changelog.gz",
-          "include/stipple/stipple.hpp"})
+          "share/doc/stipple/README.md", "include/stipple/stipple.hpp"})
         EXPECT_TRUE(box.exists(prefix + "/" + file)) << file;
-    EXPECT_THAT(box.read(prefix + "/share/doc/stipple/copyright"), HasSubstr("MIT License"));
+    EXPECT_THAT(box.read(prefix + "/share/doc/stipple/copyright"), HasSubstr("Random123/*"));
+    const std::string links = good(box.shell("cd " + prefix +
+                                             "/share/doc/stipple && grep -o "
+                                             "'](\\w[^):]*)' README.md | tr -d ']()'"));
+    for (const auto file : split(trim(links), '\n'))
+        EXPECT_TRUE(box.exists(prefix + "/share/doc/stipple/" + std::string(file))) << file;
     const std::string program = box.path().string() + "/" + prefix + "/bin/stipple";
     // The expected value 6511/129600 is known by hand.
     EXPECT_THAT(good(box.shell(program + " generate halton -n 100 --start 1 | " + program +
@@ -71,6 +77,10 @@ TEST(Package, OfDebianAndAsArchiveAreWholeAndRun) {
     for (const char* needed : {"libfmt-dev", "libtbb-dev", "libpng-dev"})
         EXPECT_THAT(depends("libstipple-dev"), HasSubstr(needed));
     if (box.exists("deb/usr/lib/python3")) {
+        const std::string version =
+            good(box.shell("PYTHONPATH=deb/usr/lib/python3/dist-packages python3 -c 'import "
+                           "importlib.metadata as m; print(m.version(\"stipple\"), end=\"\")'"));
+        EXPECT_THAT(good(box.run({"--version"})), HasSubstr("stipple " + version));
         for (const char* needed : {"python3 (<< ", "python3-numpy"})
             EXPECT_THAT(depends("python3-stipple"), HasSubstr(needed));
     }
@@ -82,6 +92,16 @@ TEST(Package, OfDebianAndAsArchiveAreWholeAndRun) {
     EXPECT_THAT(good(box.shell("dpkg-deb --contents made/stipple_*.deb")),
                 HasSubstr("-rwxr-xr-x root/root"));
     if (box.shell("test $(id -u) = 0").code == 0) expect_that_dpkg_takes_it(box);
+}
+
+TEST(Package, IsInstalledWithoutFilesInTheBuildFolder) {
+    if (sanitized()) GTEST_SKIP() << "what is installed is that of plain builds";
+    const Sandbox box;
+    good(box.shell("touch before && cmake --install " STIPPLE_BINARY_DIR " --prefix $PWD/there"));
+    expect_whole(box, "there");
+    EXPECT_EQ(good(box.shell("find " STIPPLE_BINARY_DIR "/src " STIPPLE_BINARY_DIR
+                             "/words -newer before")),
+              "");
 }
 
 }  // namespace stipple::testing::package_test
