@@ -28,6 +28,9 @@ void check_indices(const Generator& generator, const Request& request, std::uint
              "--start: the points of {} depend on the count, so a set cannot start later; leave "
              "--start out",
              generator.name);
+    if (request.start == 0 && count > traits.max_index)
+        fail(ErrorKind::usage, "--count: {} is outside [1, {}], the range of {}", count,
+             traits.max_index, generator.name);
     if (request.start > traits.max_index || count > traits.max_index - request.start)
         fail(ErrorKind::usage, "--start {} and {} points go beyond index {}, the last of {}",
              request.start, count, traits.max_index - 1, generator.name);

@@ -120,6 +120,18 @@ TEST(Api, LackOfMemoryIsALimit) {
     EXPECT_EQ(kind_of([&] { generate("sobol:scramble=owen", vast); }), ErrorKind::limit);
     EXPECT_EQ(kind_of([&] { PointSet(std::size_t{1} << 63, 2); }), ErrorKind::limit);
     EXPECT_EQ(kind_of([&] { Rows::unwritten(std::size_t{1} << 61, 8); }), ErrorKind::limit);
+    for (const std::string name : {"poisson-disk", "latin-hypercube"})
+        EXPECT_EQ(error_of([&] { generate(name, {.count = 1ULL << 60, .dimension = 2}); }),
+                  "usage: --count: 1152921504606846976 is outside [1, 9007199254740992], the range "
+                  "of " +
+                      name);
+    EXPECT_EQ(error_of([] { generate("poisson-disk", {.count = 1ULL << 48, .dimension = 2}); }),
+              "limit: a radius of 4.97e-08, with about 2.81e+14 points, needs 9.98e+14 search "
+              "cells; at most 2^32 are possible, for about 1.2e+09 points");
+    EXPECT_EQ(
+        error_of([] { generate("sample-elimination", {.count = 1ULL << 48, .dimension = 2}); }),
+        "limit: --count: 281474976710656 points are chosen from 1.407e+15; at most 2^32 are "
+        "possible, for 8.6e+08 points");
     if (sanitized()) GTEST_SKIP() << "the sanitizer stops the program when memory is lacking";
     EXPECT_EQ(error_of([] { PointSet(1ULL << 50, 2); }),
               "limit: out of memory for 1125899906842624 points of 2 coordinates, which take "

@@ -178,7 +178,11 @@ Crowd random_crowd(const Plan& plan, const Values& options, const RunContext& ru
     run.need_memory(elimination_memory(wanted, plan.dimension, dense) +
                         16 * wanted * static_cast<double>(plan.dimension + (dense ? 1 : 0)),
                     fmt::format("choosing from {:.4g} points", wanted));
-    if (wanted >= 0xffff'fff0) fail(ErrorKind::limit, "{:.4g} points are more than 2^32", wanted);
+    if (wanted >= 0xffff'fff0)
+        fail(ErrorKind::limit,
+             "--count: {} points are chosen from {:.4g}; at most 2^32 are possible, for {:.2g} "
+             "points",
+             plan.count, wanted, 0x1p32 / options[ratio]);
     const auto count = static_cast<std::size_t>(wanted);
     Crowd crowd{{}, space_of(plan, !options[bounded_option])};
     grow(crowd.rows, count * plan.dimension, run);

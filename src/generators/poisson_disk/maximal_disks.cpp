@@ -69,9 +69,9 @@ void check_size(const BoxSpace& space, double radius, double cell_radius, const 
         fmt::format("a radius of {}, with about {:.3g} points,", format_number(radius), points));
     if (cells >= 0xffff'fffe)
         fail(ErrorKind::limit,
-             "a radius of {} makes about {:.3g} points and needs {:.3g} search cells; at most 2^32 "
-             "cells are possible",
-             format_number(radius), points, cells);
+             "a radius of {:.3g}, with about {:.3g} points, needs {:.3g} search cells; at most "
+             "2^32 are possible, for about {:.2g} points",
+             radius, points, cells, points / cells * 0x1p32);
 }
 
 }  // namespace
