@@ -9,11 +9,8 @@
 
 #include "cli/launched.hpp"
 #include "cli/session.hpp"
-#include "core/bytes/file_bytes.hpp"
 #include "core/text.hpp"
-#include "io/carried_meta.hpp"
 #include "io/columns.hpp"
-#include "io/files.hpp"
 #include "io/source_text.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/units.hpp"
@@ -26,7 +23,7 @@ namespace {
 
 /// Options for reading an input, and its format; null: detected from the file's name or bytes.
 std::pair<ReadOptions, const Format*> reading_of(const std::string& path, const Sources& from) {
-    ReadOptions options{.source = path, .columns = from.columns};
+    ReadOptions options{.source = path, .columns = from.columns, .meta_beside = true};
     const bool raw = from.from == "f32" || from.from == "f64";
     // For `convert`, --dtype is the type of the output.
     const auto type = from.dtype_in || from.verb == Verb::convert ? from.dtype_in : from.dtype;
@@ -50,53 +47,12 @@ std::vector<std::string> named_files(const Sources& from) {
     return from.inputs;
 }
 
-/// A stream whose provenance is in a sidecar file.
-class WithProvenance final : public io::PointStream {
-  public:
-    WithProvenance(std::unique_ptr<io::PointStream> points, Provenance meta)
-        : points_(std::move(points)), meta_(std::move(meta)) {}
-
-    std::size_t dimension() const override { return points_->dimension(); }
-    bool next_set() override { return points_->next_set(); }
-    std::optional<std::size_t> sets() const override { return points_->sets(); }
-    std::optional<std::uint64_t> count() const override { return points_->count(); }
-    const Provenance& provenance() const override { return meta_; }
-    bool held() const override { return points_->held(); }
-    std::size_t read(std::span<double> rows) override { return points_->read(rows); }
-    std::uint64_t skip(std::uint64_t count) override { return points_->skip(count); }
-    std::vector<PointSet> read_all(const RunContext& run) override {
-        auto sets = points_->read_all(run);
-        io::tell_origin(sets, meta_);
-        return sets;
-    }
-
-  private:
-    std::unique_ptr<io::PointStream> points_;
-    Provenance meta_;
-};
-
-/// The points of a file with the provenance beside it, if that is of as many points.
-std::unique_ptr<io::PointStream> with_sidecar(std::unique_ptr<io::PointStream> points,
-                                              const std::string& path, const RunContext& run) {
-    const std::string beside = io::meta_path(path);
-    if (path == "-" || !exists(status_of(beside))) return points;
-    auto carried = io::carried_meta(io::read_bytes(beside, run), beside);
-    const auto count = points->count();
-    if (carried.provenance.dimension != points->dimension() ||
-        (carried.sets > 0 && carried.sets != points->sets().value_or(carried.sets)) ||
-        carried.provenance.count != count.value_or(carried.provenance.count))
-        return points;
-    return std::make_unique<WithProvenance>(std::move(points), std::move(carried.provenance));
-}
-
 /// Opens one file to be read in blocks. @param strengths column of weights; empty: none
 std::unique_ptr<io::PointStream> open_file(const std::string& path, const Sources& from,
                                            const std::string& strengths, const RunContext& run) {
     auto [options, format] = reading_of(path, from);
     options.strengths = strengths;
-    auto points = io::open_points(path, options, run, format);
-    return from.verb == Verb::convert ? with_sidecar(std::move(points), path, run)
-                                      : std::move(points);
+    return io::open_points(path, options, run, format);
 }
 
 /// Records in a table the domain of its input columns, from --parameters, --bounds or --domain. The
@@ -185,7 +141,7 @@ Error named_error(const Error& e, const std::string& input, const std::string& h
     for (const auto part : split(name, ','))
         named = named || what.starts_with(std::string(trim(part)) + ":");
     return {e.kind(), named ? what : fmt::format("{}: {}", name, what),
-            hint.empty() ? e.hint() : hint};
+            e.hint().empty() ? hint : e.hint()};
 }
 
 std::vector<PointSet> read_input(const std::string& path, const Sources& from,
@@ -196,7 +152,8 @@ std::vector<PointSet> read_input(const std::string& path, const Sources& from,
 std::vector<PointSet> read_input(std::string_view bytes, const std::string& path,
                                  const Sources& from, const RunContext& run) {
     const auto [options, format] = reading_of(path, from);
-    return named(io::read_sets(bytes, path, options, run, format), from, run);
+    auto feed = std::make_unique<io::Feed>(bytes);
+    return read_all(*io::open_points(std::move(feed), path, options, run, format), from, run);
 }
 
 std::unique_ptr<io::PointStream> open_input(const std::string& path, const Sources& from,

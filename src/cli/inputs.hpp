@@ -47,7 +47,7 @@ DomainPtr input_domain(const Provenance& provenance, std::size_t dimension, cons
 
 /// The same error, with the name of the input in front if the error is about the points and does
 /// not name it yet.
-/// @param hint replaces the error's own hint; empty: keeps it
+/// @param hint for an error without its own
 Error named_error(const Error& e, const std::string& input, const std::string& hint);
 
 /// Returns work(). Its errors are rethrown with the input's name, see named_error().

@@ -130,7 +130,6 @@ bool take_plot(Original& original, std::string_view picture) {
 /// none of these.
 bool take_carried(Original& original, std::string_view front, const RunContext& run) {
     std::optional<io::CarriedMeta> carried;
-    const std::string beside = io::meta_path(original.path);
     const bool picture = front.starts_with(png_magic) || front.starts_with("%PDF-");
     const bool svg = front.starts_with("<svg") || front.starts_with("<?xml");
     original.drawn = front.starts_with("ply\n") || svg;
@@ -139,8 +138,7 @@ bool take_carried(Original& original, std::string_view front, const RunContext& 
         if (take_plot(original, whole)) return true;
         carried = io::find_carried_meta(whole, original.name);
         if (!carried) refuse_without_provenance(original);
-    } else if (exists(status_of(beside))) {
-        carried = io::carried_meta(io::read_bytes(beside, run), beside);
+    } else if ((carried = io::meta_beside(original.path, run))) {
         original.format = &io::format_named(carried->of);
         if (carried->width > 0) original.width = carried->width;
         original.sets = carried->sets;

@@ -5,9 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "core/text.hpp"
+#include "io/files.hpp"
 #include "io/provenance.hpp"
 #include "media/png_picture.hpp"
 
@@ -78,10 +80,23 @@ bool is_svg(std::string_view bytes) {
 
 std::string meta_path(std::string_view points) { return std::string(points) + ".meta.json"; }
 
+std::optional<CarriedMeta> meta_beside(const std::string& points, const RunContext& run) {
+    const std::string path = meta_path(points);
+    if (points == "-" || !exists(status_of(path))) return std::nullopt;
+    return carried_meta(read_bytes(path, run), path);
+}
+
+bool CarriedMeta::fits(std::size_t of_sets, std::uint64_t count, std::size_t numbers) const {
+    return of_sets == sets && count == provenance.count && numbers == width &&
+           width == provenance.dimension + extras.size();
+}
+
 std::string to_text(const CarriedMeta& meta) {
     Json out{{"format", "stipple.meta"}, {"version", 1}, {"of", meta.of}};
     if (meta.width > 0) out["width"] = meta.width;
     if (meta.sets > 0) out["sets"] = meta.sets;
+    if (meta.single) out["dtype"] = "f32";
+    if (!meta.extras.empty()) out["extras"] = meta.extras;
     out["meta"] = to_json(meta.provenance);
     // ASCII only, since a tEXt chunk of a PNG cannot hold UTF-8.
     return out.dump(-1, ' ', true, Json::error_handler_t::replace);
@@ -101,6 +116,10 @@ CarriedMeta carried_meta(std::string_view text, const std::string& source) {
     };
     take("width", meta.width);
     take("sets", meta.sets);
+    meta.single = json.value("dtype", Json()) == "f32";
+    if (const auto it = json.find("extras"); it != json.end() && it->is_array())
+        for (const Json& name : *it)
+            if (name.is_string()) meta.extras.push_back(name.get<std::string>());
     if (const auto of = json.find("of"); of != json.end() && of->is_string())
         meta.of = of->get<std::string>();
     return meta;

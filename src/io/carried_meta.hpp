@@ -6,12 +6,14 @@
 //
 //     points.npy.meta.json {"format":"stipple.meta","version":1,"of":"npy","width":2,"meta":{...}}
 //
-// Beware  a sidecar file becomes stale when another program replaces the points.
+// Beware  a sidecar file becomes stale when another program replaces the points; readers leave it
+//         out if the points have another number, except for raw numbers.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/format.hpp"
 
@@ -19,13 +21,22 @@ namespace stipple::io {
 
 struct CarriedMeta {
     std::string of;  ///< the points' format, or the generator's option that names the picture
-    std::size_t width = 0;  ///< numbers per point; 0: unknown
-    std::size_t sets = 0;   ///< sets in the file; 0: unknown
+    std::size_t width = 0;                 ///< numbers per point; 0: unknown
+    std::size_t sets = 0;                  ///< sets in the file; 0: unknown, or of different sizes
+    bool single = false;    ///< the file holds float32
+    std::vector<std::string> extras = {};  ///< names of the numbers after the coordinates
     Provenance provenance = {};
+
+    /// Whether it is the provenance of points with these numbers.
+    [[nodiscard]] bool fits(std::size_t of_sets, std::uint64_t count, std::size_t numbers) const;
 };
 
 /// Path of the sidecar file of a point file.
 std::string meta_path(std::string_view points);
+
+/// The sidecar file of a point file; nullopt for standard input and without such a file.
+/// @throws Error(io); Error(input) as carried_meta()
+std::optional<CarriedMeta> meta_beside(const std::string& points, const RunContext& run);
 
 std::string to_text(const CarriedMeta& meta);
 

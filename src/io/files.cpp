@@ -4,6 +4,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/feed.hpp"
+#include "io/provenance.hpp"
 #include "io/source_text.hpp"
 
 namespace stipple::io {
@@ -38,7 +39,10 @@ std::vector<PointSet> read_sets(std::string_view bytes, const std::string& path,
         fail(ErrorKind::usage, "{}: {} can only be written; formats that can be read: {}",
              source_name(inner.source), chosen.name, join(readable, ", "));
     }
-    return chosen.read(bytes, inner, run);
+    auto sets = chosen.read(bytes, inner, run);
+    const PointSet& first = sets.front();
+    if (!options.any_count) note_count(inner.source, first.provenance, first.count(), run);
+    return sets;
 }
 
 std::vector<PointSet> read_points(const std::string& path, const ReadOptions& options,

@@ -73,6 +73,7 @@ std::vector<std::string> coordinate_names(std::size_t dimension, const Provenanc
 namespace io {
 class Feed;
 class PointStream;
+struct CarriedMeta;
 }  // namespace io
 
 /// Parameters of a reader.
@@ -90,6 +91,8 @@ struct ReadOptions {
     bool single = false;         ///< bin holds float32
     bool gaps = false;           ///< text: reads empty fields, NA and nan as NaN
     std::string strengths = {};  ///< weight column, read after the coordinates
+    bool meta_beside = false;    ///< reads FILE.meta.json, too, if there is one
+    const io::CarriedMeta* beside = nullptr;  ///< its contents, for readers of formats
 };
 
 struct FormatTraits {

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "io/carried_meta.hpp"
 #include "io/columns.hpp"
 #include "io/files.hpp"
 #include "io/source_text.hpp"
@@ -56,7 +57,22 @@ class RawStream final : public PointStream {
         : feed_(std::move(feed)),
           shape_(shape),
           source_(source_name(options.source)),
-          columns_(choose_columns({}, shape.width, options, source_)) {
+          hint_(options.beside && shape.offset == 0
+                    ? fmt::format("{} states their number; remove it if it is of other points",
+                                  meta_path(source_))
+                    : "") {
+        std::vector<std::string> names;
+        const CarriedMeta* const beside = options.beside;
+        const bool known =
+            beside && shape.count && beside->fits(shape.sets, *shape.count, shape.width);
+        if (known) {
+            names = coordinate_names(beside->provenance.dimension, beside->provenance);
+            names.insert(names.end(), beside->extras.begin(), beside->extras.end());
+            provenance_ = beside->provenance;
+        }
+        columns_ = choose_columns(names, shape.width, options, source_);
+        provenance_.density_column = columns_.density;
+        provenance_.columns = kept_names(columns_.names);
         std::string head(shape.offset, '\0');
         feed_->read(head);
     }
@@ -120,13 +136,13 @@ class RawStream final : public PointStream {
         const std::size_t all = shape_.offset + numbers_ * shape_.type.size + bytes_.size();
         if (bytes_.size() == wanted * point) return;
         if (shape_.count)
-            fail(ErrorKind::input,
-                 "{}: byte {}: the file ends too soon; expected {} bytes of "
-                 "numbers, found {}",
-                 source_, all,
-                 static_cast<double>(shape_.sets) * static_cast<double>(*shape_.count) *
-                     static_cast<double>(point),
-                 all - shape_.offset);
+            fail_with_hint(ErrorKind::input, hint_,
+                           "{}: byte {}: the file ends too soon; expected {} bytes of "
+                           "numbers, found {}",
+                           source_, all,
+                           static_cast<double>(shape_.sets) * static_cast<double>(*shape_.count) *
+                               static_cast<double>(point),
+                           all - shape_.offset);
         if (bytes_.size() % point != 0) refuse_part(fmt::format("{}: byte {}", source_, all));
     }
 
@@ -144,11 +160,11 @@ class RawStream final : public PointStream {
         if (feed_->read({&next, 1}) == 0) return;
         std::string more(Feed::front_size, '\0');
         const std::size_t got = 1 + feed_->read(std::span(more).first(more.size() - 1));
-        fail(ErrorKind::input,
-             "{}: byte {}: {}{} bytes follow the numbers; expected the end "
-             "of the file",
-             source_, shape_.offset + numbers_ * shape_.type.size,
-             got == more.size() ? "at least " : "", got);
+        fail_with_hint(ErrorKind::input, hint_,
+                       "{}: byte {}: {}{} bytes follow the numbers; expected the end "
+                       "of the file",
+                       source_, shape_.offset + numbers_ * shape_.type.size,
+                       got == more.size() ? "at least " : "", got);
     }
 
     std::unique_ptr<Feed> feed_;
@@ -156,6 +172,7 @@ class RawStream final : public PointStream {
     std::string source_;
     Columns columns_;
     Provenance provenance_;
+    std::string hint_;  ///< for a number of points that FILE.meta.json states
     std::size_t set_ = 0;
     std::uint64_t left_ = 0;   ///< points of this set not yet read
     std::size_t numbers_ = 0;  ///< numbers read so far
@@ -376,15 +393,52 @@ std::size_t width_of_given(std::string_view option, const std::string& path) {
 
 std::unique_ptr<PointStream> open_points(const std::string& path, const ReadOptions& options,
                                          const RunContext& run, const Format* format) {
-    auto feed = std::make_unique<Feed>(path, run);
+    return open_points(std::make_unique<Feed>(path, run), path, options, run, format);
+}
+
+namespace {
+
+/// The file's provenance beside it, if wanted. A file of this name that holds none is noted.
+std::optional<CarriedMeta> usable_beside(const std::string& path, const ReadOptions& options,
+                                         const RunContext& run) {
+    try {
+        if (options.meta_beside) return meta_beside(path, run);
+    } catch (const Error& e) {
+        if (e.kind() != ErrorKind::input) throw;
+        run.notify(std::string(e.what()) + "; it is not used");
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::unique_ptr<PointStream> open_points(std::unique_ptr<Feed> feed, const std::string& path,
+                                         const ReadOptions& options, const RunContext& run,
+                                         const Format* format) {
     ReadOptions inner = options;
     if (inner.source == "-") inner.source = path;
     inner.single = options.single || extension_is_single(path);
     const Format& chosen = format != nullptr ? *format : format_for(path, feed->front());
-    if (chosen.stream && !feed->ends_in_front())
-        if (auto stream = chosen.stream(feed, inner, run)) return stream;
-    const std::string bytes = feed->read_all();
-    return std::make_unique<HeldSets>(read_sets(bytes, path, inner, run, format));
+    if (beside && !inner.dimension && chosen.name == "bin") inner.dimension = beside->width;
+    std::unique_ptr<PointStream> points;
+    if (chosen.stream && !feed->ends_in_front()) points = chosen.stream(feed, inner, run);
+    if (!points) {
+        const std::string whole = feed->ends_in_front() ? std::string() : feed->read_all();
+        points = std::make_unique<HeldSets>(
+            read_sets(feed->ends_in_front() ? feed->front() : whole, path, inner, run, format));
+    }
+    if (beside && points->provenance().version.empty())
+        run.notify(fmt::format("{}: not used, since {}", meta_path(path),
+                               beside->sets == 0
+                                   ? "it does not state where its sets of different sizes end"
+                                   : "it is of other points"));
+    return points;
 }
 
 }  // namespace stipple::io
+    const auto beside = usable_beside(path, options, run);
+    if (beside) {
+        if (!format && !format_of_extension(path)) format = &format_named(beside->of);
+        inner.beside = &*beside;
+        inner.single |= beside->single;
+    }

@@ -68,6 +68,11 @@ class PointStream {
 std::unique_ptr<PointStream> open_points(const std::string& path, const ReadOptions& options,
                                          const RunContext& run, const Format* format = nullptr);
 
+/// As above, for a file that is open; `path` is its name. Bytes in memory must stay valid.
+std::unique_ptr<PointStream> open_points(std::unique_ptr<Feed> feed, const std::string& path,
+                                         const ReadOptions& options, const RunContext& run,
+                                         const Format* format = nullptr);
+
 /// Numbers per row in the file that an option names; reads only the first rows if possible.
 /// @throws as read_given
 std::size_t width_of_given(std::string_view option, const std::string& path);

@@ -10,6 +10,7 @@
 #include "core/json.hpp"
 #include "core/text.hpp"
 #include "io/columns.hpp"
+#include "io/source_text.hpp"
 
 namespace stipple::io {
 namespace {
@@ -199,6 +200,13 @@ bool take_comment_line(std::string_view line, Provenance& provenance) {
     if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string::npos)
         return false;
     return take(line.substr(0, colon), Json(text), provenance);
+}
+
+void note_count(const std::string& source, const Provenance& stated, std::uint64_t found,
+                const RunContext& run) {
+    if (stated.count == 0 || stated.count == found) return;
+    run.notify(fmt::format("{}: {} points, but its provenance states {}; it was cut off or edited",
+                           source_name(source), found, stated.count));
 }
 
 }  // namespace stipple::io

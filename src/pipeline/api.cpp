@@ -273,11 +273,11 @@ void write(const std::string& path, const PointSet& points, const WriteOptions& 
 
 std::vector<PointSet> read_sets(const std::string& path, const ReadFileOptions& options,
                                 const RunContext& run) try {
-    ReadOptions inner{.source = path, .densities = true};
+    ReadOptions inner{.source = path, .densities = true, .meta_beside = true};
     if (options.dimension > 0) inner.dimension = options.dimension;
     inner.single = options.single;
     const Format* format = options.format.empty() ? nullptr : &io::format_named(options.format);
-    std::vector<PointSet> sets = io::read_points(path, inner, run, format);
+    std::vector<PointSet> sets = io::open_points(path, inner, run, format)->read_all(run);
     for (PointSet& set : sets) {
         io::take_densities(set);
         complete(set.provenance);

@@ -115,8 +115,12 @@ std::string meta_beside(const Layout& layout, const std::string& path, const Tar
                         target.format->name, path == "-" ? "standard output" : path));
         return {};
     }
-    return io::to_text(
-               {target.format->name, layout.width(), layout.counts.size(), layout.provenance}) +
+    return io::to_text({.of = target.format->name,
+                        .width = layout.width(),
+                        .sets = layout.counts.are_equal() ? layout.counts.size() : 0,
+                        .single = layout.single,
+                        .extras = layout.extras,
+                        .provenance = layout.provenance}) +
            "\n";
 }
 

@@ -34,11 +34,11 @@ void write(const std::string& path, std::span<const PointSet> sets,
 
 struct ReadFileOptions {
     std::string format = {};    ///< empty: from the extension or the first bytes
-    std::size_t dimension = 0;  ///< numbers per point; required for raw binary
+    std::size_t dimension = 0;  ///< numbers per point; for raw binary without FILE.meta.json
     bool single = false;        ///< raw binary holds float32
 };
 
-/// Returns all sets of a file.
+/// Returns all sets of a file, with the provenance in FILE.meta.json if there is one.
 /// @throws Error(input) naming line or byte, and what was expected; Error(io); Error(usage)
 std::vector<PointSet> read_sets(const std::string& path, const ReadFileOptions& options = {},
                                 const RunContext& run = {});

@@ -26,11 +26,18 @@ Provenance awkward() {
 }  // namespace
 
 TEST(CarriedMeta, ComesBackFromAFileBeside) {
-    const io::CarriedMeta meta{.of = "npy", .width = 3, .sets = 2, .provenance = awkward()};
+    const io::CarriedMeta meta{.of = "npy",
+                               .width = 3,
+                               .sets = 2,
+                               .single = true,
+                               .extras = {"pdf"},
+                               .provenance = awkward()};
     const auto back = io::carried_meta(io::to_text(meta), "p");
     EXPECT_EQ(back.of, "npy");
     EXPECT_EQ(back.width, 3U);
     EXPECT_EQ(back.sets, 2U);
+    EXPECT_TRUE(back.single);
+    EXPECT_EQ(back.extras, meta.extras);
     EXPECT_EQ(back.provenance, awkward());
     EXPECT_EQ(io::meta_path("a/b.npy"), "a/b.npy.meta.json");
 }

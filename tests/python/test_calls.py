@@ -298,6 +298,9 @@ def test_files_are_read_and_written(tmp_path):
         stipple.write(tmp_path / name, x)
         assert np.array_equal(stipple.read(tmp_path / name), x)
     assert stipple.read(tmp_path / "a.json").meta["generator"] == "halton"
+    stipple.write(tmp_path / "beside.bin", x, meta=True)
+    beside = stipple.read(tmp_path / "beside.bin")
+    assert np.array_equal(beside, x) and beside.meta["generator"] == "halton"
     stipple.write(tmp_path / "sets.csv", np.stack([x, x]))
     assert len(stipple.read(tmp_path / "sets.csv")) == 2
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // Raw numbers and nothing else: little-endian float64 (or float32), point after point and set after
-// set. Reading requires the dimension; all points form one set.
+// set. Reading requires the dimension, and all points form one set, unless FILE.meta.json tells the
+// dimension, the sets and their size.
 //
 // Promise float32 is rounded toward zero: values below 1 stay below 1.
 #include "core/bytes/raw_numbers.hpp"
 #include "core/error.hpp"
+#include "io/carried_meta.hpp"
 #include "io/columns.hpp"
 #include "io/format.hpp"
 #include "io/point_stream.hpp"
@@ -28,7 +30,11 @@ std::size_t width_of(const ReadOptions& options) {
 
 std::unique_ptr<PointStream> stream(std::unique_ptr<Feed>& feed, const ReadOptions& options,
                                     const RunContext& /*run*/) {
-    const RawShape shape{.width = width_of(options), .type = {.size = options.single ? 4U : 8U}};
+    RawShape shape{.width = width_of(options), .type = {.size = options.single ? 4U : 8U}};
+    if (options.beside && options.beside->width == shape.width && options.beside->sets > 0) {
+        shape.sets = options.beside->sets;
+        shape.count = options.beside->provenance.count;
+    }
     ReadOptions inner = options;
     inner.dimension.reset();  // it is the row's width here, before columns are picked
     return stream_raw(std::move(feed), shape, inner);
@@ -52,14 +58,16 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
 }  // namespace
 
 Format unit() {
-    return {.name = "bin",
-            .summary = "Raw little-endian numbers, point after point; needs -d to read",
-            .source = "none",
-            .extensions = {".bin", ".f64", ".f32"},
-            .traits = {.binary = true, .meta_beside = true},
-            .rows = rows,
-            .read = read,
-            .stream = stream};
+    return {
+        .name = "bin",
+        .summary =
+            "Raw little-endian numbers, point after point; needs -d, or FILE.meta.json, to read",
+        .source = "none",
+        .extensions = {".bin", ".f64", ".f32"},
+        .traits = {.binary = true, .meta_beside = true},
+        .rows = rows,
+        .read = read,
+        .stream = stream};
 }
 
 }  // namespace stipple::io::bin

@@ -703,6 +703,7 @@ class DelimitedStream final : public PointStream {
           dialect_(head.dialect),
           provenance_(head.top.provenance),
           names_(head.names),
+          counted_(options.any_count),
           newline_(front.newline()) {
         const auto skipped = static_cast<std::size_t>(head.body - feed_->front().data());
         lines_ = front.line_of(head.body) - 1;
@@ -722,6 +723,7 @@ class DelimitedStream final : public PointStream {
         while (at_ == part_end() && !cut_here() && refill()) {
         }
         if (!cut_here()) return false;
+        end_first_set();
         marks_.erase(marks_.begin());
         return true;
     }
@@ -760,6 +762,7 @@ class DelimitedStream final : public PointStream {
         while (at_ == part_end()) {
             if (!read_lines()) {
                 refuse_empty_set();
+                end_first_set();
                 return false;
             }
             parse();
@@ -818,6 +821,10 @@ class DelimitedStream final : public PointStream {
         }
     }
 
+    void end_first_set() {
+        if (!std::exchange(counted_, true)) note_count(source_, provenance_, at_, run_);
+    }
+
     void refuse_empty_set() const {
         if (last_cut_.row > 0 && last_cut_.row == part_end()) refuse_empty(last_cut_.line);
     }
@@ -835,6 +842,7 @@ class DelimitedStream final : public PointStream {
     Dialect dialect_;
     Provenance provenance_;
     bool names_;
+    bool counted_;  ///< the count of the first set was compared with the provenance
     char newline_;
     bool started_ = false;
     std::string text_;

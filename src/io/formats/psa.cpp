@@ -8,6 +8,7 @@
 // Source  the text files of PSA, the program for point set analysis by T. Schloemer.
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "io/carried_meta.hpp"
 #include "io/decimal.hpp"
 #include "io/format.hpp"
 #include "io/formats/delimited.hpp"
@@ -42,7 +43,9 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
         text.refuse(line.data(), fmt::format("the first line is {}, but the number of points is "
                                              "{}; expected as many, at least one",
                                              *count, found));
-    return cut_sets(std::move(rows.numbers), columns.dimension, {0}, top.provenance);
+    const bool told = options.beside && options.beside->fits(1, found, 2);
+    return cut_sets(std::move(rows.numbers), columns.dimension, {0},
+                    told ? options.beside->provenance : top.provenance);
 }
 
 }  // namespace

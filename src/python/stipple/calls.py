@@ -453,7 +453,7 @@ def read(path: Path, *, format: str = "", d: Whole = 0, single: bool = False, th
     sets.
 
     format  name of a format, list("formats"); default: the file tells
-    d       number of coordinates, for raw binary files
+    d       number of coordinates, for raw binary files without a file FILE.meta.json beside them
     single  raw binary files have float32 numbers
 
     Raises Error for files that cannot be read.

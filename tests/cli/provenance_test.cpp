@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+//
+// Provenance in files and beside them: which points it is taken for, and what it states of them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/program.hpp"
+
+namespace stipple::testing::provenance_test {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+// People shorten text with head and grep, so that fewer points are no error.
+TEST(Provenance, OfTextHasANoteOnMissingPoints) {
+    const Sandbox box;
+    for (const std::string format : {"csv", "tsv", "txt"}) {
+        good(box.shell("stipple generate sobol -n 64 -w disk --meta -o p." + format +
+                       "; head -n -5 p." + format + " > c." + format));
+        EXPECT_EQ(box.shell("stipple analyze moments p." + format).err, "");
+        const std::string note =
+            ": 59 points, but its provenance states 64; it was cut off or edited\n";
+        for (const std::string verb :
+             {"convert -f csv", "analyze moments", "warp disk --inverse"}) {
+            const Outcome outcome = box.shell("stipple " + verb + " c." + format);
+            EXPECT_EQ(outcome.code, 0);
+            EXPECT_EQ(outcome.err, "stipple: note: c." + format + note) << verb;
+        }
+        EXPECT_EQ(box.shell("cat c." + format + " | stipple analyze moments").err,
+                  "stipple: note: stdin" + note);
+    }
+    EXPECT_EQ(box.shell("(cat p.txt; cat p.txt) | stipple analyze moments").err,
+              "stipple: note: stdin: 128 points, but its provenance states 64; it was cut off or "
+              "edited\n");
+    EXPECT_THAT(box.run({"reproduce", "c.csv"}).out, HasSubstr("different"));
+    EXPECT_EQ(box.run({"reproduce", "c.csv"}).err, "");
+}
+
+// Text that is read in parts, and the first of several sets.
+TEST(Provenance, OfLargeTextHasANoteOnMissingPoints) {
+    const Sandbox box;
+    good(box.shell(
+        "stipple generate random -n 300000 --meta -o p.csv; head -n 250000 p.csv > c.csv; "
+        "stipple generate random -n 150000 -m 2 --meta -o m.txt; sed 20,30d m.txt > d.txt"));
+    EXPECT_EQ(box.shell("stipple analyze moments p.csv m.txt").err, "");
+    EXPECT_THAT(
+        box.shell("stipple analyze moments c.csv").err,
+        StartsWith("stipple: note: c.csv: 249988 points, but its provenance states 300000"));
+    EXPECT_THAT(
+        box.shell("stipple analyze moments d.txt").err,
+        StartsWith("stipple: note: d.txt: 149989 points, but its provenance states 150000"));
+}
+
+// Raw numbers have no head, so that a part of them looks like a whole.
+TEST(Provenance, BesideRawNumbersStatesHowManyThereAre) {
+    const Sandbox box;
+    good(
+        box.shell("stipple generate sobol -n 64 -d 3 --meta -o p.bin; cp p.bin q.bin; "
+                  "cp p.bin.meta.json q.bin.meta.json"));
+    EXPECT_EQ(good(box.run({"convert", "p.bin", "-f", "csv"})),
+              good(box.run({"generate", "sobol", "-n", "64", "-d", "3"})));
+    for (const char* cut : {"head -c 1200 p.bin > q.bin", "cat p.bin p.bin > q.bin"}) {
+        good(box.shell(cut));
+        for (const char* verb : {"convert -f csv", "analyze moments", "plot -f svg", "report"}) {
+            const Outcome outcome = box.shell(std::string("stipple ") + verb + " q.bin");
+            EXPECT_EQ(outcome.code, 3) << verb;
+            EXPECT_THAT(outcome.err, HasSubstr("q.bin.meta.json states their number; remove it if "
+                                               "it is of other points"));
+        }
+    }
+    good(
+        box.shell("stipple generate random -n 20 -m 3 --dtype f32 --meta -o m.bin; "
+                  "stipple generate random -n 20 -m 3 --dtype f32 -o m.npy; "
+                  "stipple generate poisson-disk --radius 0.2 -m 3 --meta -o u.bin"));
+    EXPECT_EQ(good(box.run({"convert", "m.bin", "-f", "csv"})),
+              good(box.run({"convert", "m.npy", "-f", "csv"})));
+    EXPECT_EQ(box.run({"convert", "u.bin", "-f", "csv"}).err,
+              "stipple: note: u.bin.meta.json: not used, since it does not state where its sets of "
+              "different sizes end\n");
+}
+
+TEST(Provenance, BesideAFileIsTakenByAllVerbs) {
+    const Sandbox box;
+    const std::string make = "stipple generate sobol -n 64 --scramble owen ";
+    good(box.shell(make + "-w disk -o p.json; " + make + "-o cube.csv"));
+    const auto domain =
+        nlohmann::json::parse(good(box.run({"analyze", "moments", "p.json"})))["input"]["domain"];
+    EXPECT_EQ(domain, "disk");
+    for (const std::string format : {"npy", "utk", "bin", "psa"}) {
+        good(box.shell(make + "-w disk --meta -f " + format + " -o p"));  // no extension
+        const auto input =
+            nlohmann::json::parse(good(box.run({"analyze", "moments", "p"})))["input"];
+        EXPECT_EQ(input["domain"], "disk") << format;
+        EXPECT_EQ(input["count"], 64) << format;
+        EXPECT_EQ(good(box.shell("stipple warp disk --inverse p")),
+                  good(box.shell("stipple warp disk --inverse p.json -f csv")));
+        EXPECT_EQ(box.shell("stipple warp sphere p").code, 2) << "the points are on a disk";
+        EXPECT_EQ(good(box.shell("stipple plot p -f text --title ''")),
+                  good(box.shell("stipple plot p.json -f text --title ''")));
+        good(box.shell("stipple report p -o r.html"));
+        EXPECT_THAT(box.read("r.html"), HasSubstr("sobol")) << format;
+        EXPECT_THAT(good(box.run({"reproduce", "p"})), HasSubstr("identical"));
+    }
+}
+
+// Densities are no coordinates, and picked columns keep their names.
+TEST(Provenance, BesideAFileNamesItsColumns) {
+    const Sandbox box;
+    box.write("p.json", R"({"parameters": [{"name": "load", "range": [0, 1]},
+        {"name": "m", "levels": ["steel", "brass"]}]})");
+    good(
+        box.shell("stipple generate halton -n 8 --parameters p.json --with-pdf --meta -o t.npy; "
+                  "stipple generate halton -n 8 --parameters p.json --with-pdf -o t.csv"));
+    EXPECT_EQ(good(box.run({"convert", "t.npy", "-f", "csv"})), box.read("t.csv"));
+    EXPECT_EQ(good(box.run({"convert", "t.npy", "--column", "m", "-f", "csv"})),
+              good(box.run({"convert", "-q", "t.csv", "--column", "m", "-f", "csv"})));
+    EXPECT_THAT(good(box.run({"reproduce", "t.npy"})), HasSubstr("identical"));
+}
+
+TEST(Provenance, BesideAFileMayBeOfOtherPoints) {
+    const Sandbox box;
+    good(box.shell(
+        "stipple generate sobol -n 64 -w disk --meta -o p.npy; stipple generate sobol -n "
+        "32 -o p.npy; stipple generate sobol -n 32 -o q.npy; echo '{}' > q.npy.meta.json"));
+    const Outcome stale = box.run({"analyze", "star-discrepancy", "p.npy"});
+    EXPECT_EQ(stale.code, 0);
+    EXPECT_EQ(stale.err, "stipple: note: p.npy.meta.json: not used, since it is of other points\n");
+    const Outcome foreign = box.run({"analyze", "star-discrepancy", "q.npy"});
+    EXPECT_EQ(foreign.code, 0);
+    EXPECT_THAT(foreign.err, StartsWith("stipple: note: q.npy.meta.json: no provenance"));
+    EXPECT_EQ(nlohmann::json::parse(stale.out)["results"],
+              nlohmann::json::parse(foreign.out)["results"]);
+}
+
+}  // namespace stipple::testing::provenance_test
