@@ -159,9 +159,10 @@ std::vector<PointSet> read_input(std::string_view bytes, const std::string& path
 std::unique_ptr<io::PointStream> open_input(const std::string& path, const Sources& from,
                                             const RunContext& run, const std::string& strengths) {
     if (!from.concat) return open_file(path, from, strengths, run);
-    return io::join_points(named_files(from), [&from, &run, strengths](const std::string& file) {
+    const auto open = [&from, &run, strengths](const std::string& file) {
         return open_file(file, from, strengths, run);
-    });
+    };
+    return io::join_points(named_files(from), open, run);
 }
 
 std::vector<PointSet> read_all(io::PointStream& stream, const Sources& from,

@@ -31,8 +31,10 @@ class HeldSets final : public PointStream {
     std::vector<PointSet> read_all(const RunContext&) override { return std::move(sets_); }
 
     bool next_set() override {
+        if (next_ == sets_.size()) return false;
         at_ = 0;
-        return next_++ < sets_.size();
+        ++next_;
+        return true;
     }
 
     std::size_t read(std::span<double> rows) override {
@@ -170,9 +172,9 @@ class RawStream final : public PointStream {
     std::unique_ptr<Feed> feed_;
     RawShape shape_;
     std::string source_;
+    std::string hint_;  ///< for a number of points that FILE.meta.json states
     Columns columns_;
     Provenance provenance_;
-    std::string hint_;  ///< for a number of points that FILE.meta.json states
     std::size_t set_ = 0;
     std::uint64_t left_ = 0;   ///< points of this set not yet read
     std::size_t numbers_ = 0;  ///< numbers read so far
@@ -180,11 +182,20 @@ class RawStream final : public PointStream {
     std::string bytes_;
 };
 
+/// Names of the coordinates, then those of columns of densities.
+std::vector<std::string> names_of(const Provenance& meta, std::size_t width) {
+    const bool measured = !meta.density_column.empty();
+    auto names = meta.columns.empty() ? coordinate_names(width - (measured ? 1 : 0)) : meta.columns;
+    if (measured) names.push_back(meta.density_column);
+    return names;
+}
+
 class JoinedStream final : public PointStream {
   public:
-    JoinedStream(std::vector<std::string> paths, Opener open)
-        : paths_(std::move(paths)), open_(std::move(open)) {
-        part_ = open_(paths_.front());
+    JoinedStream(std::vector<std::string> paths, Opener open, const RunContext& run,
+                 std::size_t first)
+        : paths_(std::move(paths)), open_(std::move(open)), run_(run), at_(first) {
+        part_ = open_(paths_[at_]);
         whole_ = part_->provenance();
         enter();
     }
@@ -198,7 +209,9 @@ class JoinedStream final : public PointStream {
     std::size_t read(std::span<double> rows) override {
         const std::size_t d = dimension();
         return static_cast<std::size_t>(through_parts(rows.size() / d, [&](std::uint64_t got) {
-            return part_->read(rows.subspan(got * d));
+            const std::size_t count = part_->read(rows.subspan(got * d));
+            number_words(rows.subspan(got * d, count * d));
+            return count;
         }));
     }
 
@@ -230,7 +243,51 @@ class JoinedStream final : public PointStream {
     void enter() {
         if (!part_->next_set())
             fail(ErrorKind::input, "{}: it holds no points", source_name(paths_[at_]));
-        shards_ = shards_ && part_->provenance().shard == fmt::format("{}/{}", at_, paths_.size());
+        shards_ = shards_ && !part_->provenance().shard.empty();
+    }
+
+    /// Checks that a file with a shard of the set is the next one that is due.
+    void require_shard(std::size_t file, const std::string& shard) const {
+        const std::string of = shard.substr(shard.find('/') + 1);
+        if (shard == fmt::format("{}/{}", file, of)) return;
+        const bool more = file < parse_unsigned(of).value_or(0);
+        fail(ErrorKind::input, "{}: it is shard {} of its set; expected {}",
+             source_name(paths_[file]), shard,
+             more ? fmt::format("shard {}/{} in this place", file, of)
+                  : fmt::format("no more files, since all {} shards are there", of));
+    }
+
+    /// Numbers the words of the next file together with those of the files before: known words keep
+    /// their numbers, others follow. Afterwards `meta` has the words of all files.
+    void join_words(Provenance& meta) {
+        const auto names = names_of(meta, dimension());
+        numbers_.assign(dimension(), {});
+        for (auto& [column, words] : meta.levels) {
+            const auto known = std::ranges::find(whole_.levels, column, &Levels::value_type::first);
+            const auto c =
+                static_cast<std::size_t>(std::ranges::find(names, column) - names.begin());
+            if (known == whole_.levels.end() || words == known->second || c >= numbers_.size())
+                continue;
+            auto& all = known->second;
+            std::vector<std::string> told;
+            for (const std::string& word : words) {
+                const auto at = std::ranges::find(all, word) - all.begin();
+                if (static_cast<std::size_t>(at) == all.size()) all.push_back(word);
+                numbers_[c].push_back(static_cast<double>(at));
+                told.push_back(fmt::format("{} {}", at, word));
+            }
+            words = all;
+            run_.notify(
+                fmt::format("{}: the words of '{}' are numbered with those of the files before: {}",
+                            source_name(paths_[at_]), column, shown(join(told, ", "))));
+        }
+    }
+
+    void number_words(std::span<double> rows) const {
+        for (std::size_t i = 0; i < rows.size() && !numbers_.empty(); ++i)
+            if (const auto& numbers = numbers_[i % numbers_.size()];
+                !numbers.empty() && std::isfinite(rows[i]))
+                rows[i] = numbers.at(static_cast<std::size_t>(rows[i]));
     }
 
     /// Opens the next file; returns false after the last one.
@@ -239,15 +296,32 @@ class JoinedStream final : public PointStream {
             fail(ErrorKind::input,
                  "{}: it holds several sets; --concat joins files of one set each",
                  source_name(paths_[at_]));
-        if (at_ + 1 == paths_.size()) return false;
+        if (at_ + 1 == paths_.size()) {
+            if (shards_ && !ends_set())
+                run_.notify(
+                    fmt::format("{}: it is the last file, but shard {}; the others of its "
+                                "set are missing",
+                                source_name(paths_[at_]), part_->provenance().shard));
+            return false;
+        }
         const std::string name = source_name(paths_[++at_]);
         auto part = open_(paths_[at_]);
-        require_alike(name, *part, {source_name(paths_.front()), dimension(), whole_});
-        same_warps_ = same_warps_ && part->provenance().warps == whole_.warps;
-        shards_ = shards_ && unsharded(part->provenance()) == unsharded(whole_);
+        Provenance meta = part->provenance();
+        shards_ = shards_ && !meta.shard.empty() && unsharded(meta) == unsharded(whole_);
+        if (shards_) require_shard(at_ - 1, part_->provenance().shard);
+        if (shards_) require_shard(at_, meta.shard);
+        join_words(meta);
+        require_alike({name, part->dimension(), meta},
+                      {source_name(paths_.front()), dimension(), whole_});
+        same_warps_ = same_warps_ && meta.warps == whole_.warps;
         part_ = std::move(part);
         enter();
         return true;
+    }
+
+    /// Whether this file is the last of as many shards as there are files.
+    [[nodiscard]] bool ends_set() const {
+        return part_->provenance().shard == fmt::format("{}/{}", at_, paths_.size());
     }
 
     /// Provenance that all shards of a set have in common.
@@ -267,7 +341,7 @@ class JoinedStream final : public PointStream {
         meta.density_column = whole_.density_column;
         meta.columns = whole_.columns;
         meta.levels = whole_.levels;
-        if (shards_ && at_ + 1 == paths_.size()) meta = unsharded(whole_);
+        if (shards_ && ends_set()) meta = unsharded(whole_);
         meta.count = count_;
         meta.dimension = dimension();
         return meta;
@@ -275,23 +349,17 @@ class JoinedStream final : public PointStream {
 
     std::vector<std::string> paths_;
     Opener open_;
+    RunContext run_;
+    std::size_t at_;
     std::unique_ptr<PointStream> part_;
-    Provenance whole_;  ///< provenance of the first file
-    std::size_t at_ = 0;
+    Provenance whole_;  ///< provenance of the first file, with the words of all files so far
+    std::vector<std::vector<double>> numbers_;  ///< new numbers of this file's words, by column
     std::uint64_t count_ = 0;
     bool begun_ = false;
     bool ended_ = false;
     bool same_warps_ = true;
-    bool shards_ = true;  ///< all files so far are the shards of one set
+    bool shards_ = true;  ///< all files so far are shards of one set
 };
-
-/// Names of the coordinates, then those of columns of densities.
-std::vector<std::string> names_of(const Provenance& meta, std::size_t width) {
-    const bool measured = !meta.density_column.empty();
-    auto names = meta.columns.empty() ? coordinate_names(width - (measured ? 1 : 0)) : meta.columns;
-    if (measured) names.push_back(meta.density_column);
-    return names;
-}
 
 /// The words of a column, for messages.
 std::string words_of(const Levels& levels, const std::string& column) {
@@ -301,16 +369,16 @@ std::string words_of(const Levels& levels, const std::string& column) {
 
 }  // namespace
 
-void require_alike(const std::string& name, const PointStream& file, const FirstFile& first) {
-    const Provenance& meta = file.provenance();
+void require_alike(const JoinedFile& file, const JoinedFile& first) {
+    const auto& [name, dimension, meta] = file;
     const Provenance& before = first.provenance;
-    if (file.dimension() != first.dimension)
+    if (dimension != first.dimension)
         fail(ErrorKind::input, "{}: its points have {} coordinates; those before have {}", name,
-             file.dimension(), first.dimension);
+             dimension, first.dimension);
     if (meta.domain != before.domain)
         fail(ErrorKind::input, "{}: its points are on {}; those before are on {}", name,
              meta.domain, before.domain);
-    const auto names = names_of(meta, file.dimension());
+    const auto names = names_of(meta, dimension);
     const auto others = names_of(before, first.dimension);
     const auto [at, other] = std::ranges::mismatch(names, others);
     const auto has_names = [](const Provenance& of) { return of.named || !of.columns.empty(); };
@@ -327,8 +395,9 @@ void require_alike(const std::string& name, const PointStream& file, const First
                            first.name, known);
 }
 
-std::unique_ptr<PointStream> join_points(std::vector<std::string> paths, Opener open) {
-    return std::make_unique<JoinedStream>(std::move(paths), std::move(open));
+std::unique_ptr<PointStream> join_points(std::vector<std::string> paths, Opener open,
+                                         const RunContext& run, std::size_t first) {
+    return std::make_unique<JoinedStream>(std::move(paths), std::move(open), run, first);
 }
 
 std::uint64_t PointStream::skip(std::uint64_t count) {
@@ -418,6 +487,12 @@ std::unique_ptr<PointStream> open_points(std::unique_ptr<Feed> feed, const std::
     ReadOptions inner = options;
     if (inner.source == "-") inner.source = path;
     inner.single = options.single || extension_is_single(path);
+    const auto beside = usable_beside(path, options, run);
+    if (beside) {
+        if (!format && !format_of_extension(path)) format = &format_named(beside->of);
+        inner.beside = &*beside;
+        inner.single |= beside->single;
+    }
     const Format& chosen = format != nullptr ? *format : format_for(path, feed->front());
     if (beside && !inner.dimension && chosen.name == "bin") inner.dimension = beside->width;
     std::unique_ptr<PointStream> points;
@@ -436,9 +511,3 @@ std::unique_ptr<PointStream> open_points(std::unique_ptr<Feed> feed, const std::
 }
 
 }  // namespace stipple::io
-    const auto beside = usable_beside(path, options, run);
-    if (beside) {
-        if (!format && !format_of_extension(path)) format = &format_named(beside->of);
-        inner.beside = &*beside;
-        inner.single |= beside->single;
-    }

@@ -77,24 +77,27 @@ std::unique_ptr<PointStream> open_points(std::unique_ptr<Feed> feed, const std::
 /// @throws as read_given
 std::size_t width_of_given(std::string_view option, const std::string& path);
 
-/// The first file of several that are joined.
-struct FirstFile {
+/// One of several files that are joined.
+struct JoinedFile {
     std::string name;
     std::size_t dimension = 0;
     Provenance provenance = {};
 };
 
-/// Checks that the points of a file, with this name for messages, can follow those of the first.
+/// Checks that the points of a file can follow those of the first.
 /// @throws Error(input) for another number of coordinates, another domain, or, if both files have
 /// them, other names of columns or other words in a column
-void require_alike(const std::string& name, const PointStream& file, const FirstFile& first);
+void require_alike(const JoinedFile& file, const JoinedFile& first);
 
 /// Concatenates files of one set each into one set; each file is opened when it is needed. If the
-/// files are all shards of one set, in order, the provenance is that of the whole set; otherwise it
-/// holds only what they have in common.
-/// @throws Error(input) as require_alike(), and for a file with several sets
+/// files are all shards of one set, the provenance is that of the whole set; otherwise it holds only
+/// what they have in common. Words of later files that the first does not have get the next numbers.
+/// @param first index of the file to begin with
+/// @throws Error(input) as require_alike(), except for other words; for a file with several sets;
+/// and for shards of one set that are out of order
 using Opener = std::function<std::unique_ptr<PointStream>(const std::string& path)>;
-std::unique_ptr<PointStream> join_points(std::vector<std::string> paths, Opener open);
+std::unique_ptr<PointStream> join_points(std::vector<std::string> paths, Opener open,
+                                         const RunContext& run, std::size_t first = 0);
 
 // Functions for the implementation of formats.
 

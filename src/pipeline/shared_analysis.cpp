@@ -85,7 +85,8 @@ std::array<std::uint64_t, 2> size_of(const std::string& path, const std::string&
     const auto stream = open(path);
     if (path != first) {
         const auto front = open(first);
-        io::require_alike(path, *stream, {first, front->dimension(), front->provenance()});
+        io::require_alike({path, stream->dimension(), stream->provenance()},
+                          {first, front->dimension(), front->provenance()});
     }
     if (!stream->next_set()) fail(ErrorKind::input, "{}: it holds no points", path);
     const std::uint64_t count = stream->skip(~std::uint64_t{0});
@@ -184,8 +185,8 @@ SharedSet shared_in_files(const std::vector<std::string>& paths, const io::Opene
             .from = [=](std::uint64_t first) -> NextRows {
                 std::size_t file = 0;
                 while (file + 1 < paths.size() && first >= counts[file]) first -= counts[file++];
-                const std::shared_ptr<io::PointStream> stream = io::join_points(
-                    {paths.begin() + static_cast<std::ptrdiff_t>(file), paths.end()}, open);
+                const std::shared_ptr<io::PointStream> stream =
+                    io::join_points(paths, open, run, file);
                 stream->next_set();
                 stream->skip(first);
                 return [stream](std::span<double> rows) { return stream->read(rows); };
