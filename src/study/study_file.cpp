@@ -103,6 +103,44 @@ class Lines {
 /// Path of the journal of a table.
 std::string journal_of(const std::string& table) { return real_file(table) + ".journal"; }
 
+/// The first setting with another text in the file, for a message; empty if there is none.
+std::string difference(const Json& file, const Sweep& ours) {
+    for (const auto& [name, value] : ours.settings())
+        if (const Json other = file.value(name, Json()); other.is_string() && other != value)
+            return fmt::format(": it has {} '{}', this one '{}'", name, other.get<std::string>(),
+                               value);
+    return {};
+}
+
+Json json_of_settings(const Sweep& sweep) {
+    Json settings = Json::object();
+    for (const auto& [name, value] : sweep.settings()) settings[name] = value;
+    return settings;
+}
+
+/// As difference(), for a table without a journal, whose rows show neither the keys asked for nor
+/// limits: finds them by the fingerprint.
+/// @param ours the study of the rows with our other settings
+/// @param keys of all rows, once each
+std::string hidden_difference(const Sweep& ours, const std::string& fingerprint,
+                              const std::vector<std::string>& keys) {
+    for (const auto& kept : {ours.request().keys, {}, keys})
+        for (const bool curves : {ours.request().curves, !ours.request().curves})
+            for (const auto limit : {ours.request().time_limit, std::optional<double>()}) {
+                SweepRequest request = ours.request();
+                request.keys = kept;
+                request.curves = curves;
+                request.time_limit = limit;
+                try {
+                    const Sweep theirs(std::move(request));
+                    if (theirs.fingerprint() == fingerprint)
+                        return difference(json_of_settings(theirs), ours);
+                } catch (const Error&) {  // such keys cannot be asked for
+                }
+            }
+    return ": of other keys, another time-limit or version of stipple, which rows do not show";
+}
+
 /// Returns the first line of a table's journal; null if it is missing or is not that of a journal.
 Json head_of_journal(const std::string& table) {
     std::string line;
@@ -295,7 +333,9 @@ void StudyFile::open_file(Start start, const RunContext& run) {
         return;
     }
     if (table_.style() == TableStyle::csv) {
-        if (first + "\n" != table_.names()) refuse_other();
+        if (first + "\n" != table_.names())
+            refuse_other(first.ends_with(",seconds") ? ": it has seconds, this one has none"
+                                                     : ": it has no seconds, this one has");
         head_size_ += table_.names().size();
         ++head_lines_;
     }
@@ -334,26 +374,18 @@ bool StudyFile::journal_is_ours() const {
 }
 
 void StudyFile::begin_journal() {
-    Json settings = Json::object();
-    for (const auto& [key, value] : sweep_.settings()) settings[key] = value;
     const std::string journal = journal_of(path_);
     cut_to(journal_, 0, journal);
-    write_all(journal_,
-              fmt::format("{{\"format\":\"{}\",\"version\":3,\"study\":\"{}\",\"settings\":{}}}\n",
-                          journal_format, sweep_.fingerprint(), json_text(settings)),
-              journal);
+    write_all(
+        journal_,
+        fmt::format("{{\"format\":\"{}\",\"version\":3,\"study\":\"{}\",\"settings\":{}}}\n",
+                    journal_format, sweep_.fingerprint(), json_text(json_of_settings(sweep_))),
+        journal);
 }
 
-void StudyFile::refuse_other() const {
+void StudyFile::refuse_other(std::string differs) const {
     const Json head = head_of_journal(path_);
-    std::string differs;
-    for (const auto& [name, value] : sweep_.settings()) {
-        const Json other = head.is_object() ? head["settings"].value(name, Json()) : Json();
-        if (!other.is_string() || other == value) continue;
-        differs =
-            fmt::format(": it has {} '{}', this one '{}'", name, other.get<std::string>(), value);
-        break;
-    }
+    if (head.is_object() && differs.empty()) differs = difference(head["settings"], sweep_);
     fail_with_hint(ErrorKind::input, "resume it with its own options, or name another file with -o",
                    "{}: --resume: the file holds another study{}", path_, differs);
 }
@@ -371,6 +403,8 @@ std::optional<Sweep> StudyFile::smaller_study(const RunContext& run) const {
     std::uint64_t last_seed = 0;
     request.first_seed = ~std::uint64_t{0};
     std::string fingerprint;
+    std::string warps;
+    std::vector<std::string> keys;
     Lines lines(path_);
     for (std::string text; lines.take(text);) {
         run.check_stop();
@@ -378,6 +412,8 @@ std::optional<Sweep> StudyFile::smaller_study(const RunContext& run) const {
         if (!row) continue;
         if (row->study == sweep_.fingerprint()) break;
         fingerprint = row->study;
+        warps = row->warps;
+        if (keys.size() < 100) add(keys, row->key);
         add(request.generators, row->generator);
         add(request.measures, row->measure);
         add(request.counts, row->count);
@@ -395,7 +431,9 @@ std::optional<Sweep> StudyFile::smaller_study(const RunContext& run) const {
     } catch (const Error&) {
         refuse_other();
     }
-    if (sweep->fingerprint() != fingerprint) refuse_other();
+    if (warps != sweep->warp_names()) refuse_other(difference({{"warp", warps}}, sweep_));
+    if (sweep->fingerprint() != fingerprint)
+        refuse_other(hidden_difference(*sweep, fingerprint, keys));
     if (const std::string lost = sweep_.missing_from(*sweep); !lost.empty())
         fail_with_hint(ErrorKind::input, "include it, too, or name another file with -o",
                        "{}: --resume: the study in the file has {}, this one does not", path_,

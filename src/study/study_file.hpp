@@ -104,7 +104,7 @@ class StudyFile {
     [[nodiscard]] bool journal_is_ours() const;
     void begin_journal();
     [[nodiscard]] std::optional<Sweep> smaller_study(const RunContext& run) const;
-    [[noreturn]] void refuse_other() const;
+    [[noreturn]] void refuse_other(std::string differs = {}) const;
     [[nodiscard]] bool has(std::uint64_t unit) const;
     void store(UnitRange units, std::uint64_t offset, std::uint64_t bytes);
     void note_failure(std::uint64_t unit, const StudyRow& row);

@@ -962,6 +962,33 @@ TEST(Study, AnotherStudyIsNamedByWhatDiffers) {
               "one '98'; resume it with its own options, or name another file with -o\n");
 }
 
+// Rows show neither keys nor limits, which the fingerprint tells.
+TEST(Study, AnotherFinishedStudyIsNamedByWhatDiffers) {
+    const Sandbox box;
+    const std::string study =
+        "stipple study halton -n 16,32 --analyze star-discrepancy --seeds 2 -o ";
+    const auto differs = [&](const std::string& options) {
+        const Outcome outcome = box.shell(study + "s.csv --resume " + options);
+        EXPECT_EQ(outcome.code, 3) << options;
+        const auto from = outcome.err.find("another study") + 13;
+        return outcome.err.substr(from, outcome.err.find("; resume it") - from);
+    };
+    good(box.shell(study + "s.csv"));
+    const std::string whole = box.read("s.csv");
+    EXPECT_EQ(differs("--keys value"), ": it has keys '', this one 'value'");
+    EXPECT_EQ(differs("--keys value --curves"), ": it has keys '', this one 'value'");
+    EXPECT_EQ(differs("--curves"), ": it has curves 'false', this one 'true'");
+    EXPECT_EQ(differs("--time-limit 5"), ": it has time-limit 'none', this one '5'");
+    EXPECT_EQ(differs("-w disk"), ": it has warp '', this one 'disk'");
+    EXPECT_EQ(differs("--no-seconds"), ": it has seconds, this one has none");
+    EXPECT_EQ(box.read("s.csv"), whole);
+    good(box.shell(study + "s.csv --overwrite --keys value --time-limit 7 --no-seconds"));
+    EXPECT_EQ(differs(""), ": it has no seconds, this one has");
+    EXPECT_EQ(differs("--no-seconds --time-limit 7"), ": it has keys 'value', this one ''");
+    EXPECT_EQ(differs("--no-seconds --keys value"),
+              ": of other keys, another time-limit or version of stipple, which rows do not show");
+}
+
 TEST(Study, RowsThatWereChangedAreFoundOut) {
     const Sandbox box;
     ASSERT_EQ(good(box.shell(small + std::string("-o study.csv"))), "");
