@@ -217,6 +217,12 @@ Target target_of(const Writing& request) {
                                       : io::extension_is_single(target.path);
     target.precision = request.precision;
     target.columns = {.pdf = request.with_pdf, .weight = request.with_weight};
+    // For `warp`, --dtype may be meant for the input alone.
+    if ((request.dtype_out || (request.dtype && request.verb != Verb::warp)) && target.single &&
+        !target.format->traits.binary)
+        fail_with_hint(ErrorKind::usage, "--precision truncates the numbers of text",
+                       "--{}: {} is text, which has no float32",
+                       request.dtype_out ? "output-dtype" : "dtype", target.format->name);
     if (target.format->traits.binary && is_terminal(target.path))
         fail_with_hint(ErrorKind::usage, "name a file with -o, or pipe it on",
                        "--format: {} is binary, and standard output is a terminal",

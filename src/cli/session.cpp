@@ -76,7 +76,9 @@ extern "C" void on_interrupt(int signal) {
 std::string duration(double seconds) {
     if (seconds < 60) return fmt::format("{:.0f} s", seconds);
     if (seconds < 3600) return fmt::format("{:.0f} min", seconds / 60);
-    return fmt::format("{:.1f} h", seconds / 3600);
+    if (seconds < 172'800) return fmt::format("{:.1f} h", seconds / 3600);
+    if (seconds < 3e8) return fmt::format("{:.0f} days", seconds / 86'400);
+    return fmt::format("{:.0f} years", seconds / 31'557'600);
 }
 
 }  // namespace

@@ -122,6 +122,7 @@ class Producer {
     /// Makes one set in memory: generates and warps it, and cuts out the shard.
     [[nodiscard]] PointSet made(std::size_t set) const {
         RunContext run = part_of_run(run_, set, job_.sets);
+        if (job_.sets > 1) run.note = nullptr;  // it would hide the time that is left for all sets
         run.keeps_best = job_.sets == 1 && target_.path != "-" && !target_.take;
         PointSet points = sets_.made(set, run);
         const auto [first, last] = part(points.count());

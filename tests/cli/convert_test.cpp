@@ -151,6 +151,14 @@ TEST(Convert, NumberTypesOfInputAndOutputAreToldApart) {
     };
     EXPECT_EQ(means("a.bin", "f32").substr(0, 60), means("b.bin", "f64").substr(0, 60));
     expect_refusal(box.run({"generate", "halton", "--input-dtype", "f32"}), 2, "--input-dtype");
+    for (const char* option : {"--dtype", "--output-dtype"}) {
+        expect_refusal(box.run({"generate", "halton", option, "f32", "-o", "t.csv"}), 2,
+                       std::string(option) + ": csv is text, which has no float32");
+        expect_refusal(box.run({"convert", "b.bin", "-d", "2", option, "f32", "-o", "t.json"}), 2,
+                       std::string(option) + ": json is text, which has no float32");
+    }
+    good(box.run({"generate", "halton", "--dtype", "f64", "-o", "t.csv"}));
+    good(box.run({"warp", "disk", "a.bin", "-d", "2", "--dtype", "f32", "-o", "t.csv"}));
 }
 
 TEST(Convert, SetsSurvive) {

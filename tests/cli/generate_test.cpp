@@ -521,6 +521,18 @@ TEST(Generate, TakesSharedOptionsBeforeTheVerb) {
     expect_refusal(box.shell("stipple -q"), 2, "unknown option '-q'");
 }
 
+// The bar of many searches shows how long they will take, not the quality of each.
+TEST(Generate, SaysHowLongManySearchesWillTake) {
+    const Sandbox box;
+    const Outcome outcome = box.shell(
+        "stipple generate optimized -n 64 -m 1e9 -o p.csv --progress always 2> err & until [ "
+        "$(stat -c %s err) -gt 1000 ]; do kill -0 $! || break; sleep 0.02; done; kill -INT $!; "
+        "wait "
+        "$!; code=$?; grep -c best err; grep -Eqs '[0-9] (days|years) left' err && exit $code");
+    EXPECT_EQ(outcome.code, 130);
+    EXPECT_EQ(outcome.out, "0\n");
+}
+
 // Scripts must not go on with points of an interrupted search, although it writes them.
 TEST(Generate, WritesTheBestPointsOfAnInterruptedSearchAndExits130) {
     const Sandbox box;
