@@ -165,11 +165,8 @@ std::unique_ptr<io::PointStream> open_original(const Original& original, ReadOpt
 
 /// Reads the provenance of a file. @throws Error(input) if the file has no points or no provenance
 Original read_original(const std::string& input, const RunContext& run) {
-    const auto status = status_of(input);
-    const bool pipe =
-        input == "-" || (exists(status) && !is_regular_file(status) && !is_directory(status));
     Original original{.name = io::source_name(input), .path = input};
-    if (pipe) {
+    if (is_pipe(input)) {
         original.spool = spooled(input, run);
         original.path = original.spool->path();
     }

@@ -67,8 +67,7 @@ std::shared_ptr<SharedAccumulator> counted_in(const Analyzer& analyzer, const Sh
 
 /// @throws Error(usage) for a pipe or a device, whose bytes would go to one rank or another
 std::uint64_t fingerprint_of(const std::string& path, const RunContext& run) {
-    const auto status = status_of(path);
-    if (path == "-" || (exists(status) && !is_regular_file(status) && !is_directory(status)))
+    if (is_pipe(path))
         fail_with_hint(ErrorKind::usage, "store its bytes in a file",
                        "{}: is a pipe or a device; ranks share only files", io::source_name(path));
     io::Feed feed(path, run);

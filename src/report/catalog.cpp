@@ -121,14 +121,19 @@ Kind kind_of(std::string name, std::string verb, const std::vector<Unit>& units)
     return kind;
 }
 
+// Verbs of the kinds.
+constexpr const char* generators_verb = "generate";
+constexpr const char* warps_verb = "warp";
+constexpr const char* analyzers_verb = "analyze";
+
 // Kinds, each made at first use: making all took a quarter of a short command's time.
 const Kind& generator_kind() {
-    static const Kind kind = kind_of("generators", "generate", generators::all());
+    static const Kind kind = kind_of("generators", generators_verb, generators::all());
     return kind;
 }
 
 const Kind& analyzer_kind() {
-    static const Kind kind = kind_of("analyzers", "analyze", analyzers::all());
+    static const Kind kind = kind_of("analyzers", analyzers_verb, analyzers::all());
     return kind;
 }
 
@@ -168,19 +173,20 @@ Json unit_json(const UnitInfo& unit, std::string_view kind) {
 }  // namespace
 
 const std::vector<Kind>& catalog() {
-    static const std::vector<Kind> all = {
-        generator_kind(), kind_of("scrambles", "warp", scrambles::all()),
-        kind_of("warps", "warp", warps::all()), analyzer_kind(), kind_of("formats", "", io::all())};
+    static const std::vector<Kind> all = {generator_kind(),
+                                          kind_of("scrambles", warps_verb, scrambles::all()),
+                                          kind_of("warps", warps_verb, warps::all()),
+                                          analyzer_kind(), kind_of("formats", "", io::all())};
     return all;
 }
 
 const Kind* units_for(std::string_view verb) {
-    if (verb == "generate" || verb == "emit") return &generator_kind();
-    if (verb == "analyze") return &analyzer_kind();
-    if (verb != "warp") return nullptr;
+    if (verb == generators_verb || verb == "emit") return &generator_kind();
+    if (verb == analyzers_verb) return &analyzer_kind();
+    if (verb != warps_verb) return nullptr;
     static const Kind moving = [] {
-        Kind both = kind_of("warps", "warp", scrambles::all());
-        std::ranges::move(kind_of("warps", "warp", warps::all()).units,
+        Kind both = kind_of("warps", warps_verb, scrambles::all());
+        std::ranges::move(kind_of("warps", warps_verb, warps::all()).units,
                           std::back_inserter(both.units));
         return both;
     }();

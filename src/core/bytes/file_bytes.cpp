@@ -63,6 +63,12 @@ std::filesystem::file_status status_of(const std::string& path) {
     return status;
 }
 
+bool is_pipe(const std::string& path) {
+    if (path == "-") return true;
+    const auto status = status_of(path);
+    return exists(status) && !is_regular_file(status) && !is_directory(status);
+}
+
 namespace {
 
 using FilePtr = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;

@@ -21,6 +21,10 @@ namespace stipple {
 /// Status of a path; the file may not exist. @throws Error(io) if the status is unknown
 std::filesystem::file_status status_of(const std::string& path);
 
+/// Whether a path is standard input ("-"), a pipe or a device, whose bytes cannot be read again.
+/// @throws Error(io) as status_of()
+bool is_pipe(const std::string& path);
+
 /// Reads the whole file. @throws Error(io) if missing, a directory or unreadable; Error(limit) if
 /// larger than 1 GiB or than the limit_whole_files() limit
 std::string read_file(const std::string& path);
