@@ -268,6 +268,13 @@ TEST(Help, KnowsTheNamesOfOtherPackages) {
             << name;
     EXPECT_EQ(good(box.run({"help", "van_der_corput"})), good(box.run({"help", "van-der-corput"})));
     EXPECT_EQ(box.run({"help", "qmc", "nothing"}).code, 2);
+    for (const char* name : {"rng", "QMCEngine", "qmc.QMCEngine", "MultinomialQMC", "stipple.qmc",
+                             "MultivariateNormalQMC", "Engine", "reset", "check_random_state"}) {
+        const std::string page = good(box.shell(std::string("stipple help ") + name));
+        EXPECT_THAT(page, HasSubstr("SciPy's interface")) << name;
+        EXPECT_THAT(page, HasSubstr("'stipple help python' is the whole page.")) << name;
+    }
+    EXPECT_THAT(good(box.run({"help", "max_memory"})), HasSubstr("four fifths"));
 }
 
 // Only analyze accepts lists of units; help is available for all these words.

@@ -176,6 +176,23 @@ std::string coming_from(std::string_view name) {
     return found;
 }
 
+std::string python_section(std::string_view name) {
+    std::string_view rest = text_of(guide(), "python");
+    const std::string word = lower_case(name.substr(name.find_last_of(". ") + 1));
+    while (word.size() > 1 && !rest.empty()) {
+        const auto end = std::min(rest.find("\n## ", 1), rest.size());
+        const std::string_view section = trim(rest.substr(0, end));
+        bool code = false;
+        for (const auto piece : split(section, '`')) {
+            if (code && piece.find('\n') == piece.npos && has_word(lower_case(piece), word))
+                return plain_page(section) + "\n\n'stipple help python' is the whole page.\n";
+            code = !code;
+        }
+        rest.remove_prefix(end);
+    }
+    return {};
+}
+
 VerbPage verb_page(const std::string& verb) {
     const std::string_view all = text_of(verb_pages(), "verbs/" + verb);
     const std::string_view usage = all.substr(all.find("\n\n    ") + 2);

@@ -56,6 +56,10 @@ std::string glossary_entry(std::string_view word);
 /// coming-from; for a package (scipy), all its rows. Ignores case; empty if nothing is found.
 std::string coming_from(std::string_view name);
 
+/// The section of the guide's page about Python that has a name, such as qmc.QMCEngine, in its code
+/// within sentences, as plain text; empty if none has.
+std::string python_section(std::string_view name);
+
 /// Page of a verb: heading, command, paragraphs, and "## Examples".
 struct VerbPage {
     std::string summary;

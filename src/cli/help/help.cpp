@@ -347,6 +347,7 @@ std::string help_of_word(const std::string& name) {
     if (const std::string lines = coming_from(name); !lines.empty())
         found += (found.empty() ? "" : "\n") + lines;
     if (found.empty()) found = coming_from(name.substr(name.rfind(' ') + 1));  // qmc Halton
+    if (found.empty()) found = filled_page(python_section(name), text_columns());
     if (!found.empty()) return found;
     refuse_name(name);
 }
