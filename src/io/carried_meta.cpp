@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/bytes/file_bytes.hpp"
+#include "core/bytes/fingerprint.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "core/text.hpp"
@@ -86,9 +87,13 @@ std::optional<CarriedMeta> meta_beside(const std::string& points, const RunConte
     return carried_meta(read_bytes(path, run), path);
 }
 
-bool CarriedMeta::fits(std::size_t of_sets, std::uint64_t count, std::size_t numbers) const {
+bool CarriedMeta::fits(std::size_t of_sets, std::uint64_t count, std::size_t numbers,
+                       std::string_view bytes) const {
+    FrontFingerprint found;
+    found.add(bytes);
     return of_sets == sets && count == provenance.count && numbers == width &&
-           width == provenance.dimension + extras.size();
+           width == provenance.dimension + extras.size() &&
+           (front.empty() || front == found.text());
 }
 
 std::string to_text(const CarriedMeta& meta) {
@@ -96,6 +101,7 @@ std::string to_text(const CarriedMeta& meta) {
     if (meta.width > 0) out["width"] = meta.width;
     if (meta.sets > 0) out["sets"] = meta.sets;
     if (meta.single) out["dtype"] = "f32";
+    if (!meta.front.empty()) out["front"] = meta.front;
     if (!meta.extras.empty()) out["extras"] = meta.extras;
     out["meta"] = to_json(meta.provenance);
     // ASCII only, since a tEXt chunk of a PNG cannot hold UTF-8.
@@ -120,8 +126,12 @@ CarriedMeta carried_meta(std::string_view text, const std::string& source) {
     if (const auto it = json.find("extras"); it != json.end() && it->is_array())
         for (const Json& name : *it)
             if (name.is_string()) meta.extras.push_back(name.get<std::string>());
-    if (const auto of = json.find("of"); of != json.end() && of->is_string())
-        meta.of = of->get<std::string>();
+    const auto take_text = [&json](const char* key, std::string& word) {
+        if (const auto it = json.find(key); it != json.end() && it->is_string())
+            word = it->get<std::string>();
+    };
+    take_text("front", meta.front);
+    take_text("of", meta.of);
     return meta;
 }
 

@@ -7,7 +7,7 @@
 //     points.npy.meta.json {"format":"stipple.meta","version":1,"of":"npy","width":2,"meta":{...}}
 //
 // Beware  a sidecar file becomes stale when another program replaces the points; readers leave it
-//         out if the points have another number, except for raw numbers.
+//         out if the points have another number, except for raw numbers, or other first bytes.
 #pragma once
 
 #include <optional>
@@ -23,12 +23,14 @@ struct CarriedMeta {
     std::string of;  ///< the points' format, or the generator's option that names the picture
     std::size_t width = 0;                 ///< numbers per point; 0: unknown
     std::size_t sets = 0;                  ///< sets in the file; 0: unknown, or of different sizes
-    bool single = false;    ///< the file holds float32
+    bool single = false;                   ///< the file holds float32
+    std::string front = {};                ///< FrontFingerprint of the file; empty: unknown
     std::vector<std::string> extras = {};  ///< names of the numbers after the coordinates
     Provenance provenance = {};
 
-    /// Whether it is the provenance of points with these numbers.
-    [[nodiscard]] bool fits(std::size_t of_sets, std::uint64_t count, std::size_t numbers) const;
+    /// Whether it is the provenance of points with these numbers in a file with these first bytes.
+    [[nodiscard]] bool fits(std::size_t of_sets, std::uint64_t count, std::size_t numbers,
+                            std::string_view bytes) const;
 };
 
 /// Path of the sidecar file of a point file.

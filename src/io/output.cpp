@@ -176,6 +176,7 @@ bool Output::write(std::string_view bytes) {
         broken_ = broken_ || (!bytes.empty() && !sink_(bytes));
         return !broken_;
     }
+    front_.add(bytes);
     if (!compressor_) return put(bytes);
     return compressor_->add(bytes, [this](std::string_view some) { return put(some); });
 }

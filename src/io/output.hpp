@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/bytes/compression.hpp"
+#include "core/bytes/fingerprint.hpp"
 #include "core/bytes/spool.hpp"
 
 namespace stipple::io {
@@ -51,6 +52,9 @@ class Output {
 
     [[nodiscard]] const std::string& path() const { return path_; }
 
+    /// Fingerprint of the first bytes written so far, before compression.
+    [[nodiscard]] std::string front() const { return front_.text(); }
+
     /// The temporary name, empty if there is none, and the target's name.
     [[nodiscard]] std::pair<const std::string&, const std::string&> names() const {
         return {temporary_, target_};
@@ -72,6 +76,7 @@ class Output {
     std::string temporary_;  ///< name until commit(); empty if the file has no name
     std::stop_token stop_;
     Sink sink_;
+    FrontFingerprint front_;
     std::unique_ptr<Compressor> compressor_;  ///< for names ending in .gz or .zst
     int descriptor_ = -1;
     bool owned_ = false;   ///< the destructor closes the descriptor

@@ -65,8 +65,8 @@ class RawStream final : public PointStream {
                     : "") {
         std::vector<std::string> names;
         const CarriedMeta* const beside = options.beside;
-        const bool known =
-            beside && shape.count && beside->fits(shape.sets, *shape.count, shape.width);
+        const bool known = beside && shape.count &&
+                           beside->fits(shape.sets, *shape.count, shape.width, feed_->front());
         if (known) {
             names = coordinate_names(beside->provenance.dimension, beside->provenance);
             names.insert(names.end(), beside->extras.begin(), beside->extras.end());

@@ -196,7 +196,8 @@ TEST(Concat, TakesTheProvenanceBesideBinaryFiles) {
                        end + " 1" + end + " -o c.json"));
         for (const char* file : {"all.json", "c.json"})
             EXPECT_THAT(good(box.run({"reproduce", file})), HasSubstr("identical")) << format;
-        good(box.shell("cp 0" + end + " all" + end + "; stipple -q convert all" + end + " -o o.json"));
+        good(box.shell("cp 0" + end + " all" + end + "; stipple -q convert all" + end +
+                       " -o o.json"));
         EXPECT_EQ(nlohmann::json::parse(box.read("o.json"))["meta"]["generator"], "") << format;
     }
 }

@@ -132,6 +132,16 @@ TEST(Provenance, BesideAFileMayBeOfOtherPoints) {
     EXPECT_THAT(foreign.err, StartsWith("stipple: note: q.npy.meta.json: no provenance"));
     EXPECT_EQ(nlohmann::json::parse(stale.out)["results"],
               nlohmann::json::parse(foreign.out)["results"]);
+    for (const std::string format : {"npy", "utk", "bin", "psa"}) {  // as many points
+        const std::string from =
+            format == "psa" || format == "bin" ? " --from " + format + " -d 2" : "";
+        good(box.shell("stipple -q generate sobol -n 70000 -w disk --meta -f " + format +
+                       " -o r; stipple generate random -n 70000 -f " + format + " -o r"));
+        const Outcome replaced = box.shell("stipple analyze moments r" + from);
+        EXPECT_EQ(replaced.err,
+                  "stipple: note: r.meta.json: not used, since it is of other points\n");
+        EXPECT_EQ(nlohmann::json::parse(replaced.out)["input"]["domain"], "unit-cube") << format;
+    }
 }
 
 }  // namespace stipple::testing::provenance_test

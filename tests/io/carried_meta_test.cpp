@@ -30,6 +30,7 @@ TEST(CarriedMeta, ComesBackFromAFileBeside) {
                                .width = 3,
                                .sets = 2,
                                .single = true,
+                               .front = "0123456789abcdef",
                                .extras = {"pdf"},
                                .provenance = awkward()};
     const auto back = io::carried_meta(io::to_text(meta), "p");
@@ -37,6 +38,7 @@ TEST(CarriedMeta, ComesBackFromAFileBeside) {
     EXPECT_EQ(back.width, 3U);
     EXPECT_EQ(back.sets, 2U);
     EXPECT_TRUE(back.single);
+    EXPECT_EQ(back.front, meta.front);
     EXPECT_EQ(back.extras, meta.extras);
     EXPECT_EQ(back.provenance, awkward());
     EXPECT_EQ(io::meta_path("a/b.npy"), "a/b.npy.meta.json");

@@ -26,4 +26,20 @@ std::uint64_t fingerprint(std::span<const double> numbers);
 /// Formats 16 hexadecimal digits.
 std::string format_fingerprint(std::uint64_t value);
 
+/// Fingerprint of the beginning of a file, whose bytes come in pieces or, from memory, at once.
+class FrontFingerprint {
+  public:
+    void add(std::string_view bytes) {
+        bytes = bytes.substr(0, size - taken_);
+        hash_ = fingerprint(bytes, hash_);
+        taken_ += bytes.size();
+    }
+    [[nodiscard]] std::string text() const { return format_fingerprint(hash_); }
+
+  private:
+    static constexpr std::size_t size = std::size_t{1} << 20;
+    std::size_t taken_ = 0;
+    std::uint64_t hash_ = fingerprint(std::string_view());
+};
+
 }  // namespace stipple

@@ -732,8 +732,7 @@ class DelimitedStream final : public PointStream {
         const std::size_t d = columns_.dimension;
         std::size_t done = 0;
         while (done < rows.size()) {
-            if (cut_here() || (at_ == part_end() && !refill())) break;
-            if (cut_here()) break;
+            if (cut_here() || (at_ == part_end() && !refill()) || cut_here()) break;
             const std::uint64_t end = marks_.empty() ? part_end() : marks_.front().row;
             const auto count = std::min<std::size_t>(end - at_, (rows.size() - done) / d);
             const auto from = std::span(rows_.numbers).subspan((at_ - part_begin_) * d, count * d);
@@ -761,7 +760,7 @@ class DelimitedStream final : public PointStream {
     bool refill() {
         while (at_ == part_end()) {
             if (!read_lines()) {
-                refuse_empty_set();
+                if (last_cut_.row > 0 && last_cut_.row == part_end()) refuse_empty(last_cut_.line);
                 end_first_set();
                 return false;
             }
@@ -823,10 +822,6 @@ class DelimitedStream final : public PointStream {
 
     void end_first_set() {
         if (!std::exchange(counted_, true)) note_count(source_, provenance_, at_, run_);
-    }
-
-    void refuse_empty_set() const {
-        if (last_cut_.row > 0 && last_cut_.row == part_end()) refuse_empty(last_cut_.line);
     }
 
     [[noreturn]] void refuse_empty(std::size_t line) const {

@@ -43,7 +43,7 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
         text.refuse(line.data(), fmt::format("the first line is {}, but the number of points is "
                                              "{}; expected as many, at least one",
                                              *count, found));
-    const bool told = options.beside && options.beside->fits(1, found, 2);
+    const bool told = options.beside && options.beside->fits(1, found, 2, bytes);
     return cut_sets(std::move(rows.numbers), columns.dimension, {0},
                     told ? options.beside->provenance : top.provenance);
 }
