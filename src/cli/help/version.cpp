@@ -22,8 +22,7 @@ std::string version_text() {
         FMT_VERSION % 100, NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
         NLOHMANN_JSON_VERSION_PATCH, fft_library(), TBB_VERSION_MAJOR, TBB_VERSION_MINOR,
         BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100,
-        PNG_LIBPNG_VER_STRING, has_mpi() ? mpi_version() : "without MPI",
-        fft_licence());
+        PNG_LIBPNG_VER_STRING, has_mpi() ? mpi_version() : "without MPI", fft_licence());
 }
 
 }  // namespace stipple::cli
