@@ -128,7 +128,7 @@ TEST(Convert, RefusesFloat32ForLargerNumbers) {
     const Sandbox box;
     box.write("a.csv", "x,y\n0.5,3.4e38\n-1e300,1e-300\n");
     const auto outcome = box.run({"convert", "a.csv", "--dtype", "f32", "-o", "b.npy"});
-    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_EQ(outcome.code, 3);
     EXPECT_THAT(outcome.err, HasSubstr("float32 cannot hold -1e+300; write float64"));
     EXPECT_FALSE(box.exists("b.npy"));
 }
