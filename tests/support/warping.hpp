@@ -3,6 +3,7 @@
 // Shorthands for warping points of the unit square.
 #pragma once
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 
 #include "core/rng.hpp"
 #include "core/spec.hpp"
+#include "core/text.hpp"
 #include "support/units.hpp"
 
 namespace stipple::testing {
@@ -24,15 +26,20 @@ inline std::unique_ptr<Mapping> mapping(std::string_view text) {
     return warp.make(spec.values(warp.options), 2, {});
 }
 
-/// Images of the points that have one, with their domain.
-inline PointSet warped(const Mapping& map, const PointSet& points) {
+/// Images of the points that have one, with their domain. @param origin
+/// receives the index of each image's point
+inline PointSet warped(const Mapping& map, const PointSet& points,
+                       std::vector<std::size_t>* origin = nullptr) {
     const std::size_t d = map.domain()->dimension();
     std::vector<double> image(points.count() * d);
     std::vector<std::uint8_t> keep(points.count(), 1);
     map.forward(points.flat(), image, keep);
     std::vector<double> kept;
-    for (std::size_t i = 0; i < points.count(); ++i)
-        if (keep[i]) kept.insert(kept.end(), &image[i * d], &image[i * d] + d);
+    for (std::size_t i = 0; i < points.count(); ++i) {
+        if (!keep[i]) continue;
+        kept.insert(kept.end(), &image[i * d], &image[i * d] + d);
+        if (origin) origin->push_back(i);
+    }
     PointSet out(std::move(kept), d);
     out.domain = map.domain();
     return out;
@@ -77,7 +84,9 @@ inline PointSet telling_points(std::size_t dimension = 2) {
 /// Expects every image to be in the domain, and to be mapped back into the closed cube to a point
 /// with the same image within `tolerance`.
 inline void expect_round_trip(const Mapping& map, double tolerance) {
-    const PointSet image = warped(map, telling_points(map.cube_dimension()));
+    const PointSet cube = telling_points(map.cube_dimension());
+    std::vector<std::size_t> origin;
+    const PointSet image = warped(map, cube, &origin);
     const DomainPtr domain = map.domain();
     PointSet back(image.count(), map.cube_dimension());
     map.inverse(image.flat(), back.flat());
@@ -85,13 +94,19 @@ inline void expect_round_trip(const Mapping& map, double tolerance) {
     std::vector<std::uint8_t> keep(image.count(), 1);
     map.forward(back.flat(), again.flat(), keep);
     std::vector<double> cell(domain->cube_dimension());
+    const auto trip = [&](std::size_t i) {
+        return fmt::format("cube ({}) -> image ({}) -> preimage ({}) -> image ({})",
+                           join(cube[origin[i]], ", "), join(image[i], ", "), join(back[i], ", "),
+                           join(again[i], ", "));
+    };
     for (std::size_t i = 0; i < image.count(); ++i) {
-        ASSERT_TRUE(domain->contains(image[i])) << image[i][0] << ", " << image[i][1];
+        ASSERT_TRUE(domain->contains(image[i])) << trip(i);
         domain->to_cube(image[i], cell);
-        for (const double x : cell) ASSERT_TRUE(x >= 0 && x <= 1) << image[i][0];
-        for (const double x : back[i]) ASSERT_TRUE(x >= 0 && x <= 1) << image[i][0];
+        for (const double x : cell) ASSERT_TRUE(x >= 0 && x <= 1) << trip(i);
+        for (const double x : back[i]) ASSERT_TRUE(x >= 0 && x <= 1) << trip(i);
         for (std::size_t k = 0; k < image.dimension(); ++k)
-            ASSERT_NEAR(again[i][k], image[i][k], tolerance) << "coordinate " << k;
+            ASSERT_NEAR(again[i][k], image[i][k], tolerance)
+                << "coordinate " << k << ", " << trip(i);
     }
 }
 
