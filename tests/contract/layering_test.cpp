@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/bytes/file_bytes.hpp"
 #include "io/format.hpp"
 #include "pipeline/units.hpp"
 #include "places.hpp"
@@ -175,6 +176,18 @@ std::set<std::string> units_named_in(const std::filesystem::path& file) {
     return found;
 }
 
+/// README of a file's folder, or of the nearest folder above that has one; empty if none has.
+std::filesystem::path readme_of(const std::filesystem::path& file) {
+    for (auto folder = file.parent_path(); folder != src; folder = folder.parent_path())
+        if (exists(folder / "README.md")) return folder / "README.md";
+    return {};
+}
+
+/// Whether a text has a source between backquotes: `disk`, `disk.hpp` or `planar/disk`.
+bool names_source(const std::string& text, const std::string& stem) {
+    return std::regex_search(text, std::regex("`([\\w.]+/)*" + stem + "(\\.[ch]pp)?`"));
+}
+
 void expect_nowhere(const std::regex& forbidden, const std::string& folder) {
     for (const auto& file : files_of(folder)) {
         std::ifstream in(file);
@@ -223,6 +236,27 @@ TEST(Layering, NoFolderIsLeftOut) {
     for (const auto& entry : std::filesystem::directory_iterator(STIPPLE_SOURCE_DIR "/src"))
         EXPECT_TRUE(!entry.is_directory() || place_of(entry.path().filename()) < line.size())
             << entry.path();
+}
+
+// A folder without a README belongs to the one above it, which may leave out units: a unit's file has
+// its name.
+TEST(Layering, EverySourceIsNamedInTheReadmeOfItsFolder) {
+    EXPECT_TRUE(names_source("a `b/disk.hpp`", "disk"));
+    EXPECT_FALSE(names_source("a disk, `disk_maps`", "disk"));
+    const std::set<std::string> units = names_of_units(true);
+    for (const auto& place : line)
+        for (const auto& folder : place)
+            for (const auto& file : files_of(folder)) {
+                const auto readme = readme_of(file);
+                std::string unit = file.stem();
+                std::ranges::replace(unit, '_', '-');
+                const bool own = readme.parent_path() == file.parent_path();
+                const bool listed =
+                    units.contains(unit) || (folder == "experiments" && !STIPPLE_EXPERIMENTS);
+                if (readme.empty() || (listed && !own)) continue;
+                EXPECT_TRUE(names_source(read_file(readme), file.stem()))
+                    << readme << " does not name " << file.filename();
+            }
 }
 
 // Checks the rule "only cli/ prints" in the code.

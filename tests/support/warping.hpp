@@ -26,8 +26,8 @@ inline std::unique_ptr<Mapping> mapping(std::string_view text) {
     return warp.make(spec.values(warp.options), 2, {});
 }
 
-/// Images of the points that have one, with their domain. @param origin
-/// receives the index of each image's point
+/// Images of the points that have one, with their domain.
+/// @param origin receives the index of each image's point
 inline PointSet warped(const Mapping& map, const PointSet& points,
                        std::vector<std::size_t>* origin = nullptr) {
     const std::size_t d = map.domain()->dimension();

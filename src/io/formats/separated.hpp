@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Writer of a header and one point per line, shared by csv and tsv.
+// Reading and writing a header and one point per line, shared by csv and tsv.
 #pragma once
 
 #include "io/format.hpp"
