@@ -166,7 +166,7 @@ struct Analyzer {
     std::string summary;
     std::string source;
     std::string family = {};  ///< family name such as "blue noise", set by the registry
-    /// Search words that are not names of the analyzer: its kind, parts or uses.
+    /// Search words such as its kind, parts or uses; not names of units (see layering_test.cpp).
     std::vector<std::string> related = {};
     AnalyzerTraits traits;
     Schema options;

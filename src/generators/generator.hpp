@@ -106,7 +106,7 @@ struct Generator {
     std::string summary;
     std::string source;
     std::string family = {};  ///< such as "blue noise"; set by the registry from the folder
-    /// Further search terms, such as variants, components or applications of the generator.
+    /// Search words such as its kind, parts or uses; not names of units (see layering_test.cpp).
     std::vector<std::string> related = {};
     GeneratorTraits traits;
     Schema options;

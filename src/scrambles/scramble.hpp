@@ -38,7 +38,7 @@ struct Scramble {
     std::string summary;
     std::string source;
     std::string family = {};  ///< family name such as "blue noise", set by the registry
-    /// Further search terms, such as variants, components or applications of the scramble.
+    /// Search words such as its kind, parts or uses; not names of units (see layering_test.cpp).
     std::vector<std::string> related = {};
     Schema options;
     std::vector<std::string> aliases = {};  ///< other names that users may type

@@ -119,7 +119,7 @@ struct Warp {
     std::string summary;
     std::string source;
     std::string family = {};  ///< family name, set by the registry from the folder
-    /// Search words that are not names of the warp: its kind, components or uses.
+    /// Search words such as its kind, parts or uses; not names of units (see layering_test.cpp).
     std::vector<std::string> related = {};
     std::string strata;  ///< images of the strata, and whether xi or 1 - xi is used
     WarpTraits traits = {};
