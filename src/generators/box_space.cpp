@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/text.hpp"
 
@@ -12,13 +11,6 @@ namespace stipple {
 void check_torus(const Values& options) {
     if (options[torus_option] && options[bounded_option])
         fail(ErrorKind::usage, "--torus contradicts --bounded; give one of them");
-}
-
-double unit_ball_volume(std::size_t dimension) {
-    double ball = dimension % 2 == 0 ? std::numbers::pi : 2;  // volume in 2 or 1 dimensions
-    for (std::size_t d = dimension % 2 == 0 ? 4 : 3; d <= dimension; d += 2)
-        ball *= 2 * std::numbers::pi / static_cast<double>(d);
-    return ball;
 }
 
 double BoxSpace::largest_distance() const {

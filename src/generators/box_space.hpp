@@ -31,9 +31,6 @@ void check_torus(const Values& options);
 inline constexpr std::array<double, 7> saturated_density{0,      0.7476, 0.6966, 0.7336,
                                                          0.8430, 1.0377, 1.3598};
 
-/// Volume of the ball of radius 1.
-double unit_ball_volume(std::size_t dimension);
-
 /// A box and its metric; on the torus, distances also go across opposite faces.
 struct BoxSpace {
     Box box;

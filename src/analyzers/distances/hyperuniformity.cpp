@@ -65,6 +65,7 @@
 #include "math/functions/logarithm.hpp"
 #include "math/functions/powers.hpp"
 #include "math/functions/radians.hpp"
+#include "math/geometry/ball_volume.hpp"
 #include "math/neighbors/point_grid.hpp"
 
 namespace stipple::analyzers::hyperuniformity {
@@ -111,9 +112,9 @@ struct Ball {
     std::size_t dimension;
 
     [[nodiscard]] double volume(double r) const {
-        if (dimension == 1) return 2 * r;
-        if (dimension == 2) return std::numbers::pi * r * r;
-        return 4. / 3 * std::numbers::pi * r * r * r;
+        double volume = unit_ball_volume(dimension);
+        for (std::size_t k = 0; k < dimension; ++k) volume *= r;
+        return volume;
     }
 
     /// Volume of the intersection of two balls of radius R at the distance r; 0 if r >= 2 R.

@@ -13,6 +13,7 @@
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
 #include "math/functions/roots.hpp"
+#include "math/geometry/ball_volume.hpp"
 #include "math/neighbors/point_grid.hpp"
 
 namespace stipple {

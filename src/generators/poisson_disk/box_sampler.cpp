@@ -17,6 +17,7 @@
 #include "generators/poisson_disk/grid.hpp"
 #include "generators/poisson_disk/near_disks.hpp"
 #include "generators/poisson_disk/tile_rounds.hpp"
+#include "math/geometry/ball_volume.hpp"
 
 namespace stipple::poisson_disk {
 namespace {
