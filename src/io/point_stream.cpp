@@ -425,7 +425,7 @@ std::vector<PointSet> PointStream::read_all(const RunContext& run) {
         while (rows.size() < all) {
             const std::size_t before = rows.size();
             const auto more = static_cast<std::size_t>(std::min<std::uint64_t>(step, all - before));
-            run.need_memory(8 * static_cast<double>(before + more), "the points");
+            run.need_memory(8 * static_cast<double>(before + more), "holding the points");
             rows.resize(before + more);
             const std::size_t got = d * read(std::span(rows).subspan(before));
             rows.resize(before + got);
