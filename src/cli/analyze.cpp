@@ -276,7 +276,8 @@ class AnalyzeCall {
     void share() {
         const Analyzer& analyzer = only().analyzer();
         if (several_analyzers())
-            fail(ErrorKind::usage, "analyze: ranks share one set for one analyzer");
+            fail_with_hint(ErrorKind::usage, "name one, or start one process",
+                           "analyze: ranks do not share several analyzers");
         if (!analyzer.sharing)
             fail_with_hint(ErrorKind::usage,
                            "start one process; 'stipple study' shares many sets out",

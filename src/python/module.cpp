@@ -436,7 +436,8 @@ class Indexed {
     [[nodiscard]] py::array part(std::uint64_t first, std::uint64_t count, const How& how) const {
         const std::size_t d = dimension();
         return array_of(released(how, [&](const RunContext& run) {
-            run.need_memory(8 * static_cast<double>(count) * static_cast<double>(d), "holding the points");
+            run.need_memory(8 * static_cast<double>(count) * static_cast<double>(d),
+                            "holding the points");
             PointSet points(Rows::unwritten(count, d), d);
             constexpr std::uint64_t some = 65'536;
             for (std::uint64_t i = 0; i < count; i += some) {

@@ -93,6 +93,8 @@ void WorkQueue::sort() {
         else if (piece.seconds > 1.001 * grain_)
             sizes[cell] = piece.seconds;
     }
+    within_grain_ = static_cast<std::size_t>(
+        std::ranges::count(cells_, 0.0, [&](std::uint64_t cell) { return sizes[cell]; }));
     std::ranges::sort(cells_, [&](std::uint64_t a, std::uint64_t b) {
         return sizes[a] != sizes[b] ? (sizes[a] < sizes[b]) == (early_ <= 0) : a > b;
     });
@@ -100,18 +102,25 @@ void WorkQueue::sort() {
 
 std::optional<std::vector<UnitRange>> WorkQueue::pull() {
     while (!cells_.empty()) {
-        const std::uint64_t cell = cells_.back();
+        const bool shortest = early_ <= 0 && ahead_ < 0;
+        const std::size_t at =
+            shortest ? std::max<std::size_t>(within_grain_, 1) - 1 : cells_.size() - 1;
+        const std::uint64_t cell = cells_[at];
         std::uint64_t& pulled = work_[cell].pulled;
         auto [units, seconds] = piece_of(cell);
         if (early_ > 0 && (early_ -= seconds / measured_ratio(work_[cell])) <= 0) {
             sort();
             continue;
         }
+        if (early_ <= 0) ahead_ += shortest ? seconds : -seconds;
         if (units > 1) units -= pulled % sweep_.measures().size();  // keeps sets whole
         units = std::min(units, sweep_.units_per_cell() - pulled);
         const std::uint64_t first = cell * sweep_.units_per_cell() + pulled;
         pulled += units;
-        if (pulled == sweep_.units_per_cell()) cells_.pop_back();
+        if (pulled == sweep_.units_per_cell()) {
+            cells_.erase(cells_.begin() + static_cast<std::ptrdiff_t>(at));
+            if (at < within_grain_) --within_grain_;
+        }
         pieces_left_ = cells_.empty() ? 0 : std::max<std::uint64_t>(pieces_left_, 2) - 1;
         auto ranges = missing(done_, {first, first + units});
         if (!ranges.empty()) return ranges;

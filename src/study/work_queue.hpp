@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Pieces of work of a study. The shortest come first, so that an early stop keeps rows; for several
-// workers only in the first twentieth of the work. Then the longest come first, so that none is
-// left when everything else is done. Short pieces are in the study's order, as streams need them.
+// Pieces of work of a study. The shortest come first, so that an early stop keeps rows. Several
+// workers do so in the first twentieth of the work. Then half of their time goes to the longest
+// pieces, so that none is left when everything else is done, and half to the shortest, so that a
+// study that is stopped and resumed again and again gains rows each time. Pieces that take at most
+// the grain are in the study's order, as streams need them.
 //
 // A piece is some sets of one cell or, if measuring a set costs more than making it again, one
 // measure of one set. Pieces take at most about a second if possible, so that little is lost by an
@@ -82,9 +84,11 @@ class WorkQueue {
     double workers_;
     double early_ = 0;  ///< modelled seconds of pieces that may still be pulled shortest first
     double grain_ = 0;  ///< seconds that a piece should take
+    double ahead_ = 0;  ///< seconds of the short pieces pulled, minus those of the long ones
     std::vector<CellWork> work_;
     CellWork all_;                      ///< `finished` and `spent` of all cells
-    std::vector<std::uint64_t> cells_;  ///< not pulled completely; the last one is next
+    std::vector<std::uint64_t> cells_;  ///< not pulled completely; the last one is next, or longest
+    std::size_t within_grain_ = 0;      ///< cells at the beginning of cells_ with short pieces
     std::uint64_t pieces_left_ = 0;
     std::uint64_t finished_ = 0;  ///< number of finished pieces
 };

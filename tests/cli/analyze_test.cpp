@@ -222,7 +222,7 @@ TEST(Analyze, SeveralInputsAndSetsAreAnArrayOrAMean) {
     const auto mean =
         report_of(box.run({"analyze", "star-discrepancy", "a.csv", "b.txt", "--average"}));
     const auto twice = box.run({"analyze", "star-discrepancy", "a.csv", "a.csv", "--average"});
-    EXPECT_EQ(report_of(twice)["source"], "a.csv") << "sources are not repeated";
+    EXPECT_EQ(report_of(twice)["input"]["source"], "a.csv") << "sources are not repeated";
     EXPECT_THAT(twice.err, HasSubstr("a.csv is given twice: its sets are averaged twice"));
     double sum = 0;
     for (const auto& one : all) sum += one["results"]["value"].get<double>();
