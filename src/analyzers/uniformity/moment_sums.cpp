@@ -170,7 +170,10 @@ void MomentSums::cross(const Node& all, std::size_t i, std::size_t j, SampleAndE
     const double covariance = xy - a * b;
     const double fourth = xxyy - 2 * b * xxy - 2 * a * xyy + b * b * aa + a * a * bb +
                           4 * a * b * xy - 3 * a * a * b * b;
-    const double error = std::sqrt(std::max(fourth - covariance * covariance, 0.0) / n);
+    const double variances = std::max(aa - a * a, 0.0) * std::max(bb - b * b, 0.0);
+    const double square =
+        fourth - covariance * covariance * (n - 2) / (n - 1) + variances / (n - 1);
+    const double error = std::sqrt(std::max(square, 0.0) / n);
     const std::size_t d = width();
     for (const std::size_t place : {i * d + j, j * d + i}) {
         out.value.covariance[place] = covariance * n / (n - 1);

@@ -7,10 +7,12 @@
 //     variance = 1/(n - 1) sum (x - mean)^2,        error sqrt((m4 - m2^2 (n - 3)/(n - 1)) / n)
 //     skewness = m3 / m2^(3/2),                     error sqrt((g6 - 6 g4 + 9 + g1^2 (9 g4 + 35)/4
 //                                                              - 3 g1 g5) / n)
-//     covariance = 1/(n - 1) sum (x - mx)(y - my),  error sqrt((m22 - covariance^2) / n)
+//     covariance = 1/(n - 1) sum (x - mx)(y - my),  error sqrt((m22 - m11^2 (n - 2)/(n - 1)
+//                                                              + m20 m02 / (n - 1)) / n)
 //
-// with m_p the central moments of the sample, g_p = m_p / m2^(p/2). The errors hold for independent
-// points (that of the skewness only for many of them); more even points have smaller errors.
+// with m_p and m_pq the central moments of the sample (means over n points), g_p = m_p / m2^(p/2).
+// The errors hold for independent points (that of the skewness only for many of them), but are too
+// small for few points, as the sample's moments are. More even points have smaller errors.
 //
 // The same numbers are reported for the points on the domain's cube, where points that follow the
 // domain's density are uniform: mean 1/2, variance 1/12, skewness 0, covariances 0, for any domain.

@@ -65,14 +65,27 @@ TEST(Moments, AgreeWithTheDefinition) {
             for (std::size_t b = 0; b < 3; ++b) {
                 const long double mb = mean([&](auto i) { return set[i][b]; });
                 const auto c = mean([&](auto i) { return (set[i][a] - ma) * (set[i][b] - mb); });
+                const auto vb = mean([&](auto i) { return std::pow(set[i][b] - mb, 2.0L); });
                 const auto m22 = mean(
                     [&](auto i) { return std::pow((set[i][a] - ma) * (set[i][b] - mb), 2.0L); });
                 EXPECT_NEAR(at(report, "covariance", 3 * a + b), double(c * n / (n - 1)), 1e-10);
-                EXPECT_NEAR(at(report, "standard_error.covariance", 3 * a + b),
-                            double(std::sqrt((m22 - c * c) / n)), 2e-6);
+                EXPECT_NEAR(
+                    at(report, "standard_error.covariance", 3 * a + b),
+                    double(std::sqrt((m22 - c * c * (n - 2) / (n - 1) + m2 * vb / (n - 1)) / n)),
+                    2e-6);
             }
         }
     }
+}
+
+// Of the corners (0, 0), (1, 0) and (0, 1): m11 = -1/9, m20 = m02 = 2/9 and m22 = 1/27, so the square
+// is (1/27 - 1/162 + 4/162) / 3. With itself, a coordinate has the error of its variance.
+TEST(Moments, CovariancesOfFewPointsHaveTheErrorsOfVariances) {
+    const Report corners = analyze("moments", points_of({{0, 0}, {1, 0}, {0, 1}}));
+    EXPECT_NEAR(at(corners, "standard_error.covariance", 1), std::sqrt(1 / 54.), 1e-15);
+    const Report same = analyze("moments", points_of({{0.1, 0.1}, {0.5, 0.5}, {0.6, 0.6}}));
+    EXPECT_NEAR(at(same, "standard_error.covariance", 1), at(same, "standard_error.variance", 0),
+                1e-15);
 }
 
 TEST(Moments, DoNotDependOnWhatSumsAreTakenAbout) {
