@@ -37,11 +37,12 @@
 //         with these moments is between two extremes: some pairs at a and the others at m + s^2 /
 //         (m - a), or some at b and the others at m - s^2 / (b - m). Never depends on the number of
 //         threads.
-// Beware  neighbouring radii share most of their pairs. So the standard error of the exponent,
-//         which assumes independent residuals, is too small: by a factor of 15 for 4096 independent
-//         points of the plane, whose exponent has a standard deviation of 0.09. --average gives the
-//         true standard error, over sets. A lattice's oscillations need many radii. The variance
-//         over M windows has a relative error of sqrt(2 / M) or more, as they overlap.
+// Beware  the residuals of the fit say nothing of the exponent's error, since neighbouring radii
+//         share most of their pairs. The standard error comes from --average: the standard
+//         deviation of the single sets' exponents, divided by the square root of their number,
+//         although the exponent is that of the mean variance. A lattice's oscillations need many
+//         radii. The variance over M windows has a relative error of sqrt(2 / M) or more, as they
+//         overlap.
 // Source  S. Torquato, F. H. Stillinger, Phys. Rev. E 68 (2003) 041113,
 //         doi:10.1103/PhysRevE.68.041113 (variance by pairs, hyperuniformity).
 //         S. Karlin, W. J. Studden, "Tchebycheff Systems", Wiley 1966 (the two extreme sums are
@@ -52,6 +53,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -236,8 +238,8 @@ struct Curves {
     Report::Curve dispersion;
 };
 
-/// Adds the slope of log variance against log radius by least squares, with its standard error.
-/// Skips radii with a variance of 0, which occur in one dimension.
+/// Adds the slope of log variance against log radius by least squares. Skips radii with a variance
+/// of 0, which occur in one dimension.
 void add_exponent(Report& report) {
     const auto& variance = report.curve("variance");
     const auto& mean = report.curve("mean");
@@ -246,7 +248,7 @@ void add_exponent(Report& report) {
         if (variance[i] > 1e-9 * mean[i] * mean[i])
             logs.push_back({logarithm(report.curve("radius")[i]),
                             logarithm(report.curve("dispersion")[i] * mean[i])});
-    if (logs.size() < 3) return drop(report, {"exponent", "exponent_standard_error"});
+    if (logs.size() < 3) return drop(report, {"exponent"});
     const auto count = static_cast<double>(logs.size());
     double mx = 0;
     double my = 0;
@@ -260,11 +262,7 @@ void add_exponent(Report& report) {
         xx += (u - mx) * (u - mx);
         xy += (u - mx) * (v - my);
     }
-    const double slope = xy / xx;
-    double residual = 0;
-    for (const auto& [u, v] : logs) residual += whole_power(v - my - slope * (u - mx), 2);
-    report.add("exponent", slope);
-    report.add("exponent_standard_error", std::sqrt(residual / (count - 2) / xx));
+    report.add("exponent", xy / xx);
 }
 
 /// Adds the results at one radius; `share` is the ball's fraction of the box's volume.
@@ -386,7 +384,6 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
                                     : by_windows(points, plan, *distances.box, windows, run);
     Report results;
     results.add("exponent", 0.0);
-    results.add("exponent_standard_error", 0.0);
     results.add("fit_from", curves.radius.front(), "(V / n)^(1/d)");
     results.add("fit_to", curves.radius.back(), "(V / n)^(1/d)");
     results.add("radius", std::move(curves.radius), "(V / n)^(1/d)");
@@ -414,9 +411,19 @@ void refine(Report& mean, std::size_t, const Values&) {
     add_exponent(mean);
 }
 
-/// Variances at different radii cannot be averaged.
-void combine(Report&, std::span<const Report> sets, const Values&) {
+/// Adds the standard error of the exponent. Variances at different radii cannot be averaged.
+void combine(Report& mean, std::span<const Report> sets, const Values&) {
     if (!alike(sets, "fit_from") || !alike(sets, "fit_to")) refuse_mean();
+    std::vector<double> exponents;
+    for (const Report& set : sets)
+        if (const auto* exponent = std::get_if<double>(set.find("exponent")))
+            exponents.push_back(*exponent);
+    if (sets.size() < 2 || exponents.size() < sets.size() || !mean.find("exponent")) return;
+    const auto count = static_cast<double>(sets.size());
+    const double center = std::accumulate(exponents.begin(), exponents.end(), 0.0) / count;
+    double squares = 0;
+    for (const double exponent : exponents) squares += whole_power(exponent - center, 2);
+    mean.add("exponent_standard_error", std::sqrt(squares / (count - 1) / count));
 }
 
 }  // namespace
@@ -434,7 +441,7 @@ Analyzer unit() {
                            "(1 - window volume / V)): d for independent points, d - 1 for the most "
                            "even ones"}),
                     {"exponent_standard_error",
-                     "standard error of the fit; too small, because radii share pairs"},
+                     "standard error of the exponent over several sets, with --average", false},
                     {"fit_from", "smallest radius of the fit, in mean distances"},
                     {"fit_to", "largest radius of the fit, in mean distances"},
                     {"radius", "radius of the windows, in mean distances"},

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/text.hpp"
+#include "report/average.hpp"
 #include "support/units.hpp"
 
 namespace stipple::testing::hyperuniformity_test {
@@ -257,6 +258,38 @@ TEST(Hyperuniformity, AverageHasTheSlopeOfTheMeanVariance) {
     }
     analyzer.refine(mean, 2, analyzer.options.defaults());
     EXPECT_NEAR(mean.number("exponent"), slope + 1, 1e-9);
+}
+
+// Neighbouring radii share their pairs, so the residuals of one fit give no standard error. Over 100
+// means of 8 sets, that of the mean is the spread of the means; both have errors below 10 %.
+TEST(Hyperuniformity, TheExponentsStandardErrorIsTheSpreadOfMeans) {
+    const Analyzer& analyzer = find_analyzer(unit);
+    constexpr std::size_t repeats = 100;
+    constexpr std::size_t sets = 8;
+    double sum = 0, squares = 0, errors = 0, covered = 0;
+    for (std::size_t k = 0; k < repeats; ++k) {
+        ReportAverage average;
+        std::vector<Report> singles;
+        for (std::size_t i = 0; i < sets; ++i) {
+            const Report one =
+                report(make("random", {64, 2}, {}, {.seed = k * sets + i + 1}), {{"radii", "8"}});
+            EXPECT_EQ(one.find("exponent_standard_error"), nullptr);
+            average.add(one);
+            singles.push_back(numbers_only(one));
+        }
+        Report mean = average.mean();
+        analyzer.refine(mean, sets, analyzer.options.defaults());
+        analyzer.combine(mean, singles, analyzer.options.defaults());
+        const double exponent = mean.number("exponent");
+        const double error = mean.number("exponent_standard_error");
+        sum += exponent;
+        squares += exponent * exponent;
+        errors += error * error;
+        covered += std::abs(exponent - 2) <= 2 * error ? 1 : 0;
+    }
+    const double spread = std::sqrt((squares - sum * sum / repeats) / (repeats - 1));
+    EXPECT_NEAR(std::sqrt(errors / repeats) / spread, 1, 0.25);
+    EXPECT_GE(covered, 84) << "about 92 are, by Student's t with 7 degrees of freedom";
 }
 
 TEST(Hyperuniformity, RefusesWhatHasNoWindows) {
