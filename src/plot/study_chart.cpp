@@ -26,14 +26,6 @@ struct Topic {
 
 Topic topic_of(const MeanRow& row) { return {row.measure, row.key, row.dimension}; }
 
-/// Whether a result is an error by its key, or some mean is negative: then its distance from 0
-/// matters.
-bool is_error(const Topic& topic, std::span<const MeanRow> means) {
-    if (is_error_key(topic.key)) return true;
-    return std::ranges::any_of(
-        means, [&](const MeanRow& row) { return topic_of(row) == topic && row.mean < 0; });
-}
-
 Series series_of(const std::string& generator, const Topic& topic, bool errors,
                  std::span<const MeanRow> means) {
     std::vector<const MeanRow*> rows;
@@ -112,7 +104,7 @@ std::vector<Topic> topics_of(std::span<const MeanRow> means, const std::string& 
 
 /// Panel of a topic with a curve for each generator, which has the same colour in all panels.
 ChartPanel panel_of(const Topic& topic, const std::string& name, std::span<const MeanRow> means) {
-    const bool errors = is_error(topic, means);
+    const bool errors = is_error_key(topic.key);
     ChartPanel panel{
         .x_name = "points n", .y_name = (errors ? "RMS of " : "") + name, .log_x = true};
     double low = HUGE_VAL;

@@ -66,8 +66,7 @@ MeanRow mean_of(const StudyRow& first, std::span<const double> values, std::uint
                 .t_high = t.high,
                 .study = first.study};
     row.rms = root_mean_square(values);
-    const bool below = std::ranges::any_of(values, [](double x) { return x < 0; });
-    if (is_error_key(first.key) || below) {
+    if (is_error_key(first.key)) {
         const Interval rms = rms_interval(values, confidence);
         row.rms_low = rms.low;
         row.rms_high = rms.high;

@@ -42,7 +42,7 @@ struct MeanRow {
     double median = not_known;
     double standard_deviation = not_known;
     double rms = not_known;      ///< root mean square
-    double rms_low = not_known;  ///< known for errors, or if some values are negative
+    double rms_low = not_known;  ///< known for errors
     double rms_high = not_known;
     double confidence = not_known;  ///< level of the intervals
     double t_low = not_known;       ///< Student's t interval of the mean

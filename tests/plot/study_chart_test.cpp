@@ -87,16 +87,26 @@ TEST(StudyChart, SlopesAreThoseOfLeastSquares) {
 }
 
 TEST(StudyChart, OfErrorsTheRootMeanSquareCounts) {
-    std::vector<MeanRow> means = {mean_at(16, 1, 1, "a", "cube.error"),
-                                  mean_at(64, 1, 1, "a", "cube.error"),
-                                  mean_at(16, -1, 1, "a", "bias"), mean_at(64, 1, 1, "a", "bias")};
-    for (const char* key : {"cube.error", "bias"}) {
-        const ChartPanel panel = study_chart(means, key).chart.panels[0];
-        EXPECT_TRUE(panel.y_name.starts_with("RMS of ")) << panel.y_name;
-        EXPECT_THAT(panel.series[0].y, ElementsAre(2.0 / 16, 2.0 / 64));
-        EXPECT_THAT(panel.series[0].low, ElementsAre(1.0 / 16, 1.0 / 64));
-        EXPECT_THAT(panel.series[0].high, ElementsAre(3.0 / 16, 3.0 / 64));
-    }
+    const std::vector<MeanRow> means = {mean_at(16, -1, 1, "a", "cube.error"),
+                                        mean_at(64, 1, 1, "a", "cube.error")};
+    const ChartPanel panel = study_chart(means, "cube.error").chart.panels[0];
+    EXPECT_TRUE(panel.y_name.starts_with("RMS of ")) << panel.y_name;
+    EXPECT_TRUE(panel.log_y);
+    EXPECT_THAT(panel.series[0].y, ElementsAre(2.0 / 16, 2.0 / 64));
+    EXPECT_THAT(panel.series[0].low, ElementsAre(1.0 / 16, 1.0 / 64));
+    EXPECT_THAT(panel.series[0].high, ElementsAre(3.0 / 16, 3.0 / 64));
+}
+
+// Decibels and exponents may be negative; their distance from 0 is no error.
+TEST(StudyChart, NegativeMeansAreDrawnAsTheyAre) {
+    const std::vector<MeanRow> means = {
+        mean_at(16, -1, 1, "a", "anisotropy_db"), mean_at(64, 1, 1, "a", "anisotropy_db"),
+        mean_at(16, 2, 1, "b", "anisotropy_db"), mean_at(64, 2, 1, "b", "anisotropy_db")};
+    const ChartPanel panel = study_chart(means, "anisotropy_db").chart.panels[0];
+    EXPECT_EQ(panel.y_name, "anisotropy db");
+    EXPECT_FALSE(panel.log_y);
+    EXPECT_THAT(panel.series[0].y, ElementsAre(-1.0 / 16, 1.0 / 64));
+    EXPECT_THAT(panel.series[1].low, ElementsAre(1.8 / 16, 1.8 / 64));
 }
 
 // Slopes differ between panels, so each has its own legend, with the same colours; a generator that
