@@ -360,6 +360,14 @@ class Plot {
         if (!found.left_out.empty())
             session_.warn(fmt::format("{} results are drawn; --key draws others: {}",
                                       found.chart.panels.size(), join(found.left_out, ", ")));
+        const auto below_zero = [](const plot::Series& series) {
+            return std::ranges::any_of(series.y, [](double y) { return y < 0; });
+        };
+        for (const plot::ChartPanel& panel : found.chart.panels)
+            if (style_.log_y.value_or(false) && std::ranges::any_of(panel.series, below_zero))
+                fail(ErrorKind::input,
+                     "--y-scale: a logarithmic axis cannot show {}, which has negative means",
+                     panel.y_name);
         add(std::move(found.chart));
     }
 
@@ -374,7 +382,8 @@ class Plot {
                 reports_, [&](const Measurement& m) { return m.analyzer == analyzer; });
             const std::span own(reports_.begin(), others.begin());
             if (!add_pair_tables(own)) {
-                plot::Chart chart = plot::chart_of(own, request_.key.value_or(""));
+                plot::Chart chart =
+                    plot::chart_of(own, request_.key.value_or(""), style_.log_x.value_or(false));
                 rename(chart);
                 add(std::move(chart));
             }
@@ -414,6 +423,11 @@ class Plot {
     }
 
     void add(plot::Chart chart) {
+        for (const plot::ChartPanel& panel : chart.panels)
+            if (panel.off_axis > 0)
+                session_.warn(fmt::format(
+                    "{}: {} of {} values are 0 or less, and not on the logarithmic axis",
+                    panel.x_name, panel.off_axis, panel.values));
         if (chart_ != "histogram") rename_axes(chart);  // a histogram's coordinates are renamed
         const auto draw = [chart](const plot::PictureStyle& style, bool) {
             return plot::draw_chart(chart, style);
@@ -677,7 +691,8 @@ class Plot {
     void add_distances() {
         std::vector<const PointSet*> sets;
         for (const Loaded& set : sets_) sets.push_back(&set.points);
-        plot::Chart chart = plot::distance_chart(sets, names(), session_.run());
+        plot::Chart chart =
+            plot::distance_chart(sets, names(), style_.log_x.value_or(false), session_.run());
         if (!different_titles()) chart.title += " of " + sets_[0].title;
         if (sets_.size() == 1) chart.subtitle = subtitle_of(sets_[0]) + number_of(sets_[0]);
         add(std::move(chart));
@@ -773,9 +788,12 @@ class Plot {
         return picture;
     }
 
-    /// Whether a coordinate has a logarithmic axis: by option in the plane, or as a parameter.
+    /// Whether a coordinate has a logarithmic axis: by option in a histogram or in the plane, or as a
+    /// parameter.
     [[nodiscard]] bool is_log(std::size_t k, std::span<const PointSet* const> sets) const {
-        const bool plane = sets[0]->dimension() == 2 && chart_ != "histogram";
+        const bool histogram = chart_ == "histogram" || sets[0]->dimension() == 1;
+        if (histogram && style_.log_x) return *style_.log_x;
+        const bool plane = sets[0]->dimension() == 2 && !histogram;
         const std::optional<bool>& option = k == 0 ? style_.log_x : style_.log_y;
         const bool given = plane && option.has_value();
         if (!(given ? *option : sets_[0].log[k])) return false;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <span>
 
+#include "core/error.hpp"
 #include "core/text.hpp"
 #include "plot/drawing/letters.hpp"
 
@@ -681,6 +682,26 @@ Bars histogram_of(std::span<const double> values, double low, double high, std::
     return histogram_between(std::move(edges), values, log);
 }
 
+std::pair<double, double> keep_positive(std::vector<std::vector<double>>& sets, ChartPanel& panel) {
+    double low = HUGE_VAL;
+    double high = 0;
+    for (auto& values : sets) {
+        panel.values += values.size();
+        panel.off_axis += std::erase_if(values, [](double x) { return !(x > 0); });
+        for (double& value : values) {
+            value = std::max(value, least_shown);
+            low = std::min(low, value);
+            high = std::max(high, value);
+        }
+    }
+    if (!(low <= high))
+        fail(ErrorKind::input, "--x-scale: a logarithmic axis cannot show {}: no value is above 0",
+             panel.x_name);
+    require_shown(low, high);
+    if (!flaw_of_range(low, high).empty() || low == high) return {low / 2, 2 * high};
+    return {low, high};
+}
+
 bool are_whole(std::span<const double> values) {
     constexpr double most = 1e15;  // halves of larger numbers are rounded
     return std::ranges::all_of(values,
@@ -693,9 +714,9 @@ Bars whole_histogram(std::span<const double> values, double low, double high, st
     std::vector<double> edges = {std::ceil(low) - 0.5};
     const double begin = edges[0];
     const double end = std::floor(high) + 0.5;
-    double width =
-        (log ? std::log(end / begin) : end - begin) / static_cast<double>(std::max(few, most));
-    if (!log) width = std::ceil(width);
+    const auto bins = static_cast<double>(std::max(few, most));
+    log = log && end - begin > bins;
+    const double width = log ? std::log(end / begin) / bins : std::ceil((end - begin) / bins);
     for (double i = 1; edges.back() < end; ++i) {
         const double next = log ? std::floor(begin * std::exp(i * width)) + 0.5 : begin + i * width;
         if (next > edges.back()) edges.push_back(std::min(next, end));

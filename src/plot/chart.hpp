@@ -74,6 +74,8 @@ struct ChartPanel {
     std::vector<double> rug = {};  ///< values marked by short lines at the bottom
     bool log_x = false;
     bool log_y = false;
+    std::size_t values = 0;    ///< number of a histogram's values on a logarithmic axis or off it
+    std::size_t off_axis = 0;  ///< how many of them are 0 or less
     bool whole_x = false;
     bool from_zero = false;  ///< whether the y axis starts at 0
     double reach_y =
@@ -162,12 +164,17 @@ void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Posi
 Bars histogram_of(std::span<const double> values, double low, double high, std::size_t bins,
                   bool log = false);
 
+/// Removes values of 0 or less from the sets of a histogram on a logarithmic axis, and counts them in
+/// the panel. Returns a range for the other values.
+/// @throws Error(input) if there are no others
+std::pair<double, double> keep_positive(std::vector<std::vector<double>>& sets, ChartPanel& panel);
+
 /// Whether all values are whole, and so small that halves between them are exact.
 bool are_whole(std::span<const double> values);
 
 /// Histogram of whole numbers from `low` to `high`, with edges between: one bin for each number or,
 /// if there are more than `most` and more than 20, bins of equally many, except for the last, which
-/// may have fewer. If `log`, bins are about equal in logarithms.
+/// may have fewer; if `log`, these are about equal in logarithms instead.
 Bars whole_histogram(std::span<const double> values, double low, double high, std::size_t most,
                      bool log = false);
 

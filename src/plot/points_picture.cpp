@@ -203,13 +203,16 @@ class PointMarks {
         const Area& a = raster.area;
         const auto columns = static_cast<double>(raster.columns);
         const auto rows = static_cast<double>(raster.rows);
+        // A bin has its left and lower edge, which positions miss by their rounding errors.
+        constexpr double slack = 1e-9;
         for (std::size_t i = 0; i < set.count(); ++i) {
             if (i % patience == 0) run_.tick(i, set.count());
             const Position position = place(set[i]);
-            const double x = (position.x - a.left) / a.width * columns;
-            const double y = (position.y - a.top) / a.height * rows;
-            if (!(x >= 0 && x <= columns && y >= 0 && y <= rows)) continue;
-            visit(std::min(static_cast<std::size_t>(y), raster.rows - 1) * raster.columns +
+            const double x = (position.x - a.left) / a.width * columns + slack;
+            const double up = (a.bottom() - position.y) / a.height * rows + slack;
+            if (!(x >= 0 && x <= columns + 1 && up >= 0 && up <= rows + 1)) continue;
+            const auto row = std::min(static_cast<std::size_t>(up), raster.rows - 1);
+            visit((raster.rows - 1 - row) * raster.columns +
                   std::min(static_cast<std::size_t>(x), raster.columns - 1));
         }
     }
@@ -701,16 +704,22 @@ ChartPanel histogram_panel(const PointsPicture& picture, const Box& box, std::si
     if (panel.log_x) panel.y_name += fmt::format(" of ln {}", panel.x_name);
     panel.whole_x = is_whole(picture, k);
     const auto histogram = panel.whole_x ? whole_histogram : histogram_of;
+    std::vector<std::vector<double>> all;
+    for (const PointSet* set : picture.sets) all.push_back(coordinate(*set, k));
+    std::pair range(box.low[k], box.high[k]);
+    if (panel.log_x) {
+        const auto positive = keep_positive(all, panel);
+        if (!(range.first > 0)) range = {positive.first, std::max(range.second, positive.second)};
+    }
     for (std::size_t s = 0; s < picture.sets.size(); ++s) {
-        const std::vector<double> values = coordinate(*picture.sets[s], k);
-        Bars bars = histogram(values, box.low[k], box.high[k], bins_of(values.size()), panel.log_x);
+        const std::size_t bins = bins_of(picture.sets[s]->count());
+        Bars bars = histogram(all[s], range.first, range.second, bins, panel.log_x);
         bars.name = picture.names[s];
         panel.bars.push_back(std::move(bars));
     }
     if (frame_is_outline(picture) && !panel.log_x)
         panel.guides.push_back({.name = "uniform", .y = {1 / box.extent(k)}});
-    if (picture.sets.size() == 1 && picture.sets[0]->count() <= 2000)
-        panel.rug = coordinate(*picture.sets[0], k);
+    if (picture.sets.size() == 1 && picture.sets[0]->count() <= 2000) panel.rug = std::move(all[0]);
     return panel;
 }
 

@@ -125,9 +125,9 @@ Chart histogram_chart(const PointsPicture& picture);
 
 /// Histogram of the distances to the nearest neighbour; not periodic if the points have no domain.
 /// Also shows the density for independent points, except if a side of the domain is too short for
-/// the formula.
+/// the formula. If `log`, the axis is logarithmic, without distances of 0.
 /// @throws Error(input) for a set with one point
 Chart distance_chart(std::span<const PointSet* const> sets, const std::vector<std::string>& names,
-                     const RunContext& run);
+                     bool log, const RunContext& run);
 
 }  // namespace stipple::plot

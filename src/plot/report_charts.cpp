@@ -549,31 +549,46 @@ Chart number_over_count(Measurements ms, const std::string& key) {
     return chart;
 }
 
-Chart number_histogram(Measurements ms, const std::string& key) {
-    std::vector<double> values;
+Chart number_histogram(Measurements ms, const std::string& key, bool log) {
+    ChartPanel panel{.x_name = key == "value" ? words_of(ms[0].analyzer) : words_of(key),
+                     .y_name = "sets",
+                     .log_x = log,
+                     .from_zero = true};
+    std::vector<std::vector<double>> all(1);
+    std::vector<double>& values = all[0];
     for (const Measurement& m : ms)
         if (const auto value = number_at(m.results, key); value && std::isfinite(*value))
             values.push_back(*value);
+    const std::size_t sets = values.size();
+    double size = 0;
+    for (const double value : values) size = std::max(size, std::abs(value));
+    // Numbers that an axis would show as 0 are scaled.
+    if (size > 0 && size < least_shown) {
+        for (double& value : values) value /= least_shown;
+        panel.x_name += fmt::format(" (×{})", power_of_ten(-300));
+    }
     const auto [low, high] = std::ranges::minmax(values);
     require_shown(low, high);
-    const bool whole = are_whole(values);
-    const auto shown = whole ? std::pair(low, high) : visible_range(low, high);
+    std::pair shown(low, high);
+    if (log) shown = keep_positive(all, panel);
+    panel.whole_x = are_whole(values);
+    if (!log && !panel.whole_x) shown = visible_range(low, high);
     // Sturges' rule for the bin width, suitable for about ten to some thousand values.
     const auto bins =
         static_cast<std::size_t>(std::ceil(std::log2(static_cast<double>(values.size())))) + 3;
-    Bars bars =
-        (whole ? whole_histogram : histogram_of)(values, shown.first, shown.second, bins, false);
-    for (std::size_t i = 0; i < bars.heights.size(); ++i)
+    Bars bars = (panel.whole_x ? whole_histogram : histogram_of)(values, shown.first, shown.second,
+                                                                 bins, log);
+    for (std::size_t i = 0; i < bars.heights.size(); ++i) {
+        const double left = bars.edges[i];
+        const double right = bars.edges[i + 1];
         bars.heights[i] = std::round(bars.heights[i] * static_cast<double>(values.size()) *
-                                     (bars.edges[i + 1] - bars.edges[i]));
+                                     (log ? std::log(right / left) : right - left));
+    }
     Chart chart = titled(capitalised(words_of(ms[0].analyzer)), ms);
-    chart.subtitle = noted(chart.subtitle, fmt::format("{} sets", values.size()));
-    chart.panels.push_back({.x_name = key == "value" ? words_of(ms[0].analyzer) : words_of(key),
-                            .y_name = "sets",
-                            .bars = {std::move(bars)},
-                            .rug = values.size() <= 100 ? values : std::vector<double>{},
-                            .whole_x = whole,
-                            .from_zero = true});
+    chart.subtitle = noted(chart.subtitle, fmt::format("{} sets", sets));
+    panel.bars.push_back(std::move(bars));
+    if (values.size() <= 100) panel.rug = values;
+    chart.panels.push_back(std::move(panel));
     return chart;
 }
 
@@ -616,7 +631,7 @@ std::pair<double, double> white_noise_band(double cells, double sets) {
     return {point(-1.96), point(1.96)};
 }
 
-Chart chart_of(Measurements ms, const std::string& key) {
+Chart chart_of(Measurements ms, const std::string& key, bool log_x) {
     for (const Measurement& m : ms)
         if (m.analyzer != ms[0].analyzer)
             fail(ErrorKind::input,
@@ -636,7 +651,7 @@ Chart chart_of(Measurements ms, const std::string& key) {
         return value && std::isfinite(*value);
     };
     if (std::ranges::count_if(ms, has_number) < 2) refuse(ms, key);
-    return alike(ms, &Measurement::count) ? number_histogram(ms, number)
+    return alike(ms, &Measurement::count) ? number_histogram(ms, number, log_x)
                                           : number_over_count(ms, number);
 }
 

@@ -28,7 +28,8 @@ namespace stipple::plot {
 /// analyzer
 /// @throws Error(input) for reports of different analyzers, or if nothing can be drawn;
 /// Error(usage) for an unknown key, naming the possible ones
-Chart chart_of(std::span<const Measurement> measurements, const std::string& key = {});
+Chart chart_of(std::span<const Measurement> measurements, const std::string& key = {},
+               bool log_x = false);
 
 /// Value of an analyzer's option; empty if the analyzer has no such option.
 std::string option_of(const std::vector<std::pair<std::string, std::string>>& options,

@@ -351,6 +351,25 @@ TEST(Plot, RefusesLogarithmicAxesOfWhatHasNone) {
     }
 }
 
+TEST(Plot, NotesValuesThatALogarithmicHistogramLeavesOut) {
+    const Sandbox box;
+    std::string values;
+    for (int i = -11; i < 189; ++i) values += std::to_string(0.5 * i) + "\n";
+    box.write("v.csv", values);
+    const Outcome some = box.run({"plot", "v.csv", "--chart", "histogram", "--x-scale", "log"});
+    EXPECT_EQ(some.code, 0);
+    EXPECT_THAT(some.err, HasSubstr("12 of 200 values are 0 or less, and not on the logarithmic"));
+    box.write("n.csv", "-1\n-2\n0\n");
+    expect_refusal(box.run({"plot", "n.csv", "--chart", "histogram", "--x-scale", "log"}), 3,
+                   "no value is above 0");
+    good(
+        box.shell("stipple study --generators 'random;jittered' --count 64,256 --sets 2 --analyze "
+                  "periodogram --keys radial.anisotropy_db -o s.csv"));
+    const std::string drawn = good(box.run({"plot", "s.csv", "-q"}));
+    EXPECT_THAT(drawn, Not(HasSubstr("RMS of")));
+    expect_refusal(box.run({"plot", "s.csv", "--y-scale", "log"}), 3, "which has negative means");
+}
+
 TEST(Plot, RefusesWhatIsNoPictureAndLeavesNoFile) {
     const Sandbox box;
     good(box.shell("stipple generate random -n 100 -o p.csv"));

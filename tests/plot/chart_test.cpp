@@ -396,6 +396,27 @@ TEST(ReportCharts, NumbersOfOneSizeAreAHistogramThatCountsThem) {
     }
 }
 
+TEST(ReportCharts, HistogramsOfNumbersHaveBinsOfLogarithmsOnALogAxis) {
+    std::vector<Measurement> ms;
+    for (int i = 0; i < 60; ++i) ms.push_back(number(i < 5 ? 0 : std::exp2(-0.5 * i), 64));
+    const ChartPanel panel = chart_of(ms, "", true).panels.at(0);
+    EXPECT_EQ(panel.values, 60U);
+    EXPECT_EQ(panel.off_axis, 5U);
+    const Bars& bars = panel.bars.at(0);
+    double sum = 0;
+    for (std::size_t i = 0; i < bars.heights.size(); ++i) {
+        EXPECT_NEAR(bars.edges[i + 1] / bars.edges[i], bars.edges[1] / bars.edges[0], 1e-9);
+        EXPECT_NEAR(bars.heights[i], 55.0 / static_cast<double>(bars.heights.size()), 1.5);
+        sum += bars.heights[i];
+    }
+    EXPECT_EQ(sum, 55);
+    // Numbers too small for an axis are scaled: three values, not one bar at 0.
+    ms = {number(2e-305, 64), number(4e-305, 64), number(6e-305, 64)};
+    const ChartPanel tiny = chart_of(ms).panels.at(0);
+    EXPECT_THAT(tiny.x_name, HasSubstr("(×10⁻³⁰⁰)"));
+    EXPECT_EQ(std::ranges::count_if(tiny.bars.at(0).heights, [](double h) { return h > 0; }), 3);
+}
+
 TEST(ReportCharts, SaysWhatCanBeDrawnWhereNothingCan) {
     EXPECT_THAT(refusal({number(0.1, 64)}),
                 HasSubstr("a single report of star-discrepancy has only numbers, nothing to draw; "

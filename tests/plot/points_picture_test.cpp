@@ -225,6 +225,66 @@ TEST(PointsPicture, LogarithmicAxesAreEvenInPowers) {
     EXPECT_EQ(marks_of(draw_points(space, {}, {})).size(), 9U);
 }
 
+// Each of 16 x 16 cells contains its lower and left edge: one point (i / 16, j / 16).
+TEST(PointsPicture, CellsOfADensityAreHalfOpenUpwards) {
+    PointSet grid(256, 2);
+    for (std::size_t i = 0; i < grid.count(); ++i) {
+        grid[i][0] = static_cast<double>(i % 16) / 16;
+        grid[i][1] = static_cast<double>(i / 16) / 16;
+    }
+    const auto cells_of = [](const PointSet& set, double width) {
+        PointsPicture picture = picture_of({&set});
+        picture.marking = Marking::density;
+        return *shapes_of<PixelImage>(draw_points(picture, {.width = width}, {})).at(0);
+    };
+    std::size_t tried = 0;
+    for (double width = 300; width < 400; ++width) {
+        const PixelImage cells = cells_of(grid, width);
+        if (cells.columns != 16 || cells.rows != 16) continue;
+        ++tried;
+        for (const Colour& pixel : cells.pixels)
+            ASSERT_EQ(pixel.blue, cells.pixels[0].blue) << "width " << width;
+        // A point on the upper border is in the last row.
+        for (const auto& [y, row] : {std::pair{0.0, 15U}, {0.5, 7U}, {1.0, 0U}}) {
+            const PixelImage one = cells_of(points_of({{0.25, y}}), width);
+            EXPECT_NE(one.pixels[row * 16 + 4].blue, one.pixels[row * 16 + 5].blue) << y;
+        }
+    }
+    EXPECT_GT(tried, 0U);
+}
+
+// Values of 0 and less are counted and left out; the others have bins that are equal on the axis.
+TEST(PointsPicture, LogarithmicHistogramsCountWhatTheyLeaveOut) {
+    PointSet points(200, 1);
+    for (std::size_t i = 0; i < 200; ++i)
+        points[i][0] = i < 12 ? -0.5 * (i % 2) : std::exp2(0.1 * double(i));
+    PointsPicture picture = picture_of({&points});
+    picture.log = {true};
+    const ChartPanel panel = histogram_chart(picture).panels.at(0);
+    EXPECT_EQ(panel.values, 200U);
+    EXPECT_EQ(panel.off_axis, 12U);
+    EXPECT_EQ(panel.rug.size(), 188U);
+    EXPECT_THAT(panel.y_name, HasSubstr("density of ln "));
+    const Bars& bars = panel.bars.at(0);
+    EXPECT_DOUBLE_EQ(bars.edges.front(), std::exp2(1.2));
+    double sum = 0;
+    for (std::size_t i = 0; i < bars.heights.size(); ++i) {
+        const double width = std::log(bars.edges[i + 1] / bars.edges[i]);
+        EXPECT_NEAR(width, std::log(bars.edges[1] / bars.edges[0]), 1e-9);
+        EXPECT_NEAR(bars.heights[i] * 18.7 * std::log(2), 1, 0.1) << "equal heights";
+        sum += bars.heights[i] * width;
+    }
+    EXPECT_NEAR(sum, 1, 1e-9);
+    for (std::size_t i = 0; i < 200; ++i) points[i][0] = -points[i][0] * points[i][0];
+    EXPECT_THAT(error_of([&] { histogram_chart(picture); }), HasSubstr("no value is above 0"));
+    // Outcomes have a bar each.
+    for (std::size_t i = 0; i < 200; ++i) points[i][0] = static_cast<double>(i % 13);
+    const ChartPanel whole = histogram_chart(picture).panels.at(0);
+    EXPECT_EQ(whole.off_axis, 16U);
+    ASSERT_EQ(whole.bars[0].edges.size(), 13U);
+    for (std::size_t i = 0; i < 13; ++i) EXPECT_EQ(whole.bars[0].edges[i], 0.5 + double(i));
+}
+
 // Each whole number has a bar or, if there are many, each bar has equally many; the density is that
 // of the numbers.
 TEST(PointsPicture, HistogramBarsOfWholeNumbersHoldEquallyMany) {
@@ -287,7 +347,7 @@ TEST(PointsPicture, NoTextLeavesThePicture) {
 TEST(DistanceChart, CountsEveryPoint) {
     const PointSet points = make("random", {1000, 2});
     const PointSet* const sets[] = {&points};
-    const Chart chart = distance_chart(sets, {"a"}, {});
+    const Chart chart = distance_chart(sets, {"a"}, false, {});
     const Bars& bars = chart.panels.at(0).bars.at(0);
     double sum = 0;
     for (const double height : bars.heights) sum += height * (bars.edges[1] - bars.edges[0]);
@@ -299,10 +359,32 @@ TEST(DistanceChart, CountsEveryPoint) {
                 1e-3);
     const PointSet one = points_of({{0.5, 0.5}});
     const PointSet* const single[] = {&one};
-    EXPECT_THROW(distance_chart(single, {"a"}, {}), Error);
+    EXPECT_THROW(distance_chart(single, {"a"}, false, {}), Error);
     const PointSet same = points_of({{0.5, 0.5}, {0.5, 0.5}});
     const PointSet* const equal[] = {&same};
-    EXPECT_THROW(distance_chart(equal, {"a"}, {}), Error);
+    EXPECT_THROW(distance_chart(equal, {"a"}, false, {}), Error);
+}
+
+// The density of ln r, r p(r), integrates to 1 over ln r.
+TEST(DistanceChart, HasBinsOfLogarithmsOnALogAxis) {
+    PointSet points = make("random", {1000, 2});
+    for (std::size_t k = 0; k < 2; ++k) points[1][k] = points[0][k];
+    const PointSet* const sets[] = {&points};
+    const ChartPanel panel = distance_chart(sets, {"a"}, true, {}).panels.at(0);
+    EXPECT_EQ(panel.off_axis, 2U);
+    const Bars& bars = panel.bars.at(0);
+    double sum = 0;
+    for (std::size_t i = 0; i < bars.heights.size(); ++i) {
+        const double width = std::log(bars.edges[i + 1] / bars.edges[i]);
+        EXPECT_NEAR(width, std::log(bars.edges[1] / bars.edges[0]), 1e-9);
+        sum += bars.heights[i] * width;
+    }
+    EXPECT_NEAR(sum, 1, 1e-9);
+    const Guide& guide = panel.guides.at(0);
+    double area = 0;
+    for (std::size_t i = 1; i < guide.x.size(); ++i)
+        area += (guide.y[i] + guide.y[i - 1]) / 2 * std::log(guide.x[i] / guide.x[i - 1]);
+    EXPECT_NEAR(area, 1, 0.01);
 }
 
 // ---------------------------------------------------------------- rims
