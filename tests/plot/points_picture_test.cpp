@@ -257,7 +257,7 @@ TEST(PointsPicture, CellsOfADensityAreHalfOpenUpwards) {
 TEST(PointsPicture, LogarithmicHistogramsCountWhatTheyLeaveOut) {
     PointSet points(200, 1);
     for (std::size_t i = 0; i < 200; ++i)
-        points[i][0] = i < 12 ? -0.5 * (i % 2) : std::exp2(0.1 * double(i));
+        points[i][0] = i < 12 ? -0.5 * static_cast<double>(i % 2) : std::exp2(0.1 * double(i));
     PointsPicture picture = picture_of({&points});
     picture.log = {true};
     const ChartPanel panel = histogram_chart(picture).panels.at(0);
