@@ -151,7 +151,7 @@ if(STIPPLE_PYTHON)
   math(EXPR next "${Python3_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
       "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, python3-scipy, stipple")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, python3-pandas, python3-scipy, stipple")
 endif()
 set(about "Sample points for integration, rendering, simulation and experiments: random
 numbers, low-discrepancy sequences, nets, lattices and blue noise; maps of them

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: MIT
 import copy
 import inspect
+import os
 import pickle
+import subprocess
+import sys
 import warnings
 from fractions import Fraction
 from math import prod
@@ -346,6 +349,13 @@ def test_engines_are_copied(engine):
 def test_scipys_integrals_take_engines(engine):
     found = qmc_quad(lambda x: np.prod(x, axis=-1), [0, 0], [1, 2], n_points=256, qrng=engine(2))
     assert 0 < found.standard_error and abs(found.integral - 1) < 0.1
+
+
+def test_without_scipy_the_import_says_so():
+    program = "import sys; sys.modules['scipy'] = None; import stipple; from stipple import qmc"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
+                          env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)})
+    assert done.stderr.endswith("\nImportError: stipple.qmc needs the package scipy, which is not installed\n")
 
 
 WRONG = {

@@ -26,8 +26,12 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
-import scipy.stats.qmc as _scipy  # type: ignore[import]
 from numpy.typing import ArrayLike, NDArray
+
+try:
+    import scipy.stats.qmc as _scipy  # type: ignore[import]
+except ModuleNotFoundError as error:
+    raise ImportError("stipple.qmc needs the package scipy, which is not installed") from error
 from scipy.sparse.csgraph import minimum_spanning_tree  # type: ignore[import]
 from scipy.spatial.distance import pdist, squareform  # type: ignore[import]
 from scipy.stats.qmc import QMCEngine, scale, update_discrepancy
