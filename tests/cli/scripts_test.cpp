@@ -50,4 +50,17 @@ TEST(PublishedTable, HasOursBesideTheirs) {
     EXPECT_EQ(box.shell(table + "stipple nobody").code, 1);
 }
 
+// Words that the script does not know install nothing.
+TEST(Setup, KnowsItsWords) {
+    const Sandbox box;
+    const std::string setup = STIPPLE_SOURCE_DIR "/scripts/setup ";
+    const Outcome help = box.shell(setup + "--help");
+    expect_quiet(help);
+    EXPECT_THAT(help.out, HasSubstr("usage: scripts/setup [python | "));
+    for (const char* words : {"pyhton", "python wheel", "--verbose"})
+        EXPECT_EQ(box.shell(setup + words).code, 2) << words;
+    EXPECT_THAT(box.shell(setup + "pyhton").err,
+                HasSubstr("setup: unknown argument 'pyhton'; usage"));
+}
+
 }  // namespace stipple::testing::scripts_test
