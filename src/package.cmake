@@ -157,9 +157,12 @@ set(about "Sample points for integration, rendering, simulation and experiments:
 numbers, low-discrepancy sequences, nets, lattices and blue noise; maps of them
 onto other domains and densities; discrepancies, spectra, tests and distances
 that measure how even they are.")
-set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "${about} This is the program, for pipes.")
-set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "${about} This is the C++ library.")
-set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${about} This is the Python module.")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # it would precede those of the packages
+foreach(part "PROGRAM program" "LIBRARY C++ library" "PYTHON Python module")
+  string(REGEX MATCH "^([A-Z]+) (.*)$" part "${part}")
+  set(CPACK_DEBIAN_${CMAKE_MATCH_1}_DESCRIPTION
+      "makes, warps and judges sample sets (${CMAKE_MATCH_2})\n${about}")
+endforeach()
 set(CPACK_SOURCE_GENERATOR TGZ)
 set(CPACK_SOURCE_IGNORE_FILES "/[.]git(/|$)" "/build/")
 include(CPack)

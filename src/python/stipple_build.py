@@ -40,10 +40,15 @@ def _say(line):
 
 def _metadata():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    citation = (ROOT / "CITATION.cff").read_text()
+    author = re.search(r"- name: (.*)", citation)[1]
+    keywords = ",".join(re.findall(r"- (.*)", citation.partition("keywords:")[2]))
+    about = " ".join(re.search(r"abstract: >-((?:\n  .*)+)", citation)[1].split())
     return (f"Metadata-Version: 2.1\nName: {project['name']}\nVersion: {version()}\n"
             f"Summary: {project['description']}\nLicense: {project['license']['text']}\n"
-            f"Requires-Python: {project['requires-python']}\n"
-            + "".join(f"Requires-Dist: {needed}\n" for needed in project["dependencies"]))
+            f"Author: {author}\nKeywords: {keywords}\nRequires-Python: {project['requires-python']}\n"
+            + "".join(f"Requires-Dist: {needed}\n" for needed in project["dependencies"])
+            + f"Description-Content-Type: text/plain\n\n{about}\n")
 
 
 def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):

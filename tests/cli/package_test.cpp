@@ -72,6 +72,10 @@ TEST(Package, OfDebianAndAsArchiveAreWholeAndRun) {
         EXPECT_TRUE(box.exists("deb/usr/share/doc/" + package + "/copyright")) << package;
         return good(box.shell("dpkg-deb --field made/" + package + "_*.deb Depends"));
     };
+    EXPECT_EQ(
+        good(box.shell("for p in made/*.deb; do dpkg-deb -f $p Description | head -n 1; done | "
+                       "sort | uniq -d")),
+        "");
     for (const char* library : {"libc6", "libfmt", "libtbb", "libzstd"})
         EXPECT_THAT(depends("stipple"), HasSubstr(library));
     for (const char* needed : {"libfmt-dev", "libtbb-dev", "libpng-dev"})
@@ -81,6 +85,12 @@ TEST(Package, OfDebianAndAsArchiveAreWholeAndRun) {
             good(box.shell("PYTHONPATH=deb/usr/lib/python3/dist-packages python3 -c 'import "
                            "importlib.metadata as m; print(m.version(\"stipple\"), end=\"\")'"));
         EXPECT_THAT(good(box.run({"--version"})), HasSubstr("stipple " + version));
+        const std::string about =
+            good(box.shell("cat deb/usr/lib/python3/dist-packages/*/METADATA"));
+        for (const char* part :
+             {"\nAuthor: The stipple authors\n", "\nKeywords: quasi-Monte Carlo,",
+              "\n\nA program, C++ library and Python module that makes"})
+            EXPECT_THAT(about, HasSubstr(part));
         for (const char* needed : {"python3 (<< ", "python3-numpy"})
             EXPECT_THAT(depends("python3-stipple"), HasSubstr(needed));
     }
