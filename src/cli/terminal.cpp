@@ -93,7 +93,7 @@ std::string filled_page(std::string_view text, std::size_t columns) {
     for (const auto line : split(text.substr(0, text.find_last_not_of('\n') + 1), '\n')) {
         if (stands_as_it_is(line) || mark_of_item(line) > 0) end_part();
         if (stands_as_it_is(line))
-            out += std::string(line) + "\n";
+            out += (line.starts_with('|') ? filled(line, columns, 4) : std::string(line)) + "\n";
         else
             part += std::string(line) + "\n";
     }

@@ -33,8 +33,8 @@ std::string filled(std::string_view text, std::size_t columns, std::size_t inden
 std::string beside(std::string_view tag, std::string_view text, std::size_t columns,
                    std::size_t indent);
 
-/// Wraps each paragraph and list item of a text. Does not change lines indented by four blanks,
-/// headings and tables.
+/// Wraps each paragraph, list item and row of a table. Does not change headings and lines indented
+/// by four blanks.
 std::string filled_page(std::string_view text, std::size_t columns);
 
 }  // namespace stipple::cli

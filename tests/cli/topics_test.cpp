@@ -33,9 +33,11 @@ TEST(Topics, LeadOn) {
             << topic.name << " is missing from data/guide/index.md";
         EXPECT_LE(topic.summary.size(), 60U) << topic.name;
         EXPECT_THAT(topic.text, HasSubstr("\nRead on: 'stipple help ")) << topic.name;
-        for (const auto line : split(topic.text, '\n')) {
-            const bool as_it_is = line.starts_with('|') || line.starts_with("    ");
-            EXPECT_TRUE(as_it_is || line.size() <= 130) << topic.name << ": " << line;
+        const std::string page = filled_page(topic.text, 80);
+        for (const auto line : split(page, '\n')) {
+            const bool code = line.starts_with("    ");
+            EXPECT_TRUE(code || code_points(line).size() <= 80) << topic.name << ": " << line;
+            EXPECT_TRUE(code || line.find('`') == line.npos) << topic.name << ": " << line;
         }
     }
 }
@@ -138,8 +140,8 @@ TEST(Topics, AreListedAndFound) {
 TEST(Topics, FindWhatOtherPackagesCallSomething) {
     const Sandbox box;
     const std::string halton = good(box.run({"help", "qmc.Halton"}));
-    EXPECT_THAT(halton, HasSubstr("SciPy\n  Halton(3, scramble=False).random(5)\n"
-                                  "      stipple generate halton -d 3 -n 5\n"));
+    EXPECT_THAT(halton, HasSubstr("SciPy\n    Halton(3, scramble=False).random(5)\n"
+                                  "        stipple generate halton -d 3 -n 5\n"));
     EXPECT_THAT(halton, HasSubstr("QMCPy\n"));
     EXPECT_THAT(halton, Not(HasSubstr("HaltonSequence")));
     EXPECT_EQ(good(box.run({"help", "HALTON"})), halton);
@@ -150,6 +152,9 @@ TEST(Topics, FindWhatOtherPackagesCallSomething) {
     EXPECT_TRUE(package.starts_with("SciPy\n"));
     EXPECT_THAT(package, HasSubstr("   # centered.squared\n"));
     EXPECT_THAT(package, Not(HasSubstr("QMCPy")));
+    EXPECT_THAT(package,
+                HasSubstr("\n        SciPy needs a radius and stops at the number of points,"));
+    EXPECT_THAT(package, HasSubstr("For MultivariateNormalQMC, use the warp normal"));
     EXPECT_THAT(good(box.run({"help", "coming-from"})), HasSubstr(package));
     for (const char* none : {"square_to", "", "x", "2", "|", "`", ".", "utk."})
         EXPECT_EQ(box.run({"help", none}).code, 2) << none;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cli/help/plain_page.hpp"
+#include "cli/terminal.hpp"
 #include "core/bytes/compression.hpp"
 #include "core/text.hpp"
 
@@ -21,7 +22,7 @@ std::string heading_of(std::string_view page) {
 
 std::string trimmed(std::string_view text) { return std::string(trim(text)); }
 
-/// Page about other packages, with one table each.
+/// Page about other packages, with a section and a table for each.
 constexpr std::string_view peers_page = "coming-from";
 
 /// Page that lists the other ones, in groups.
@@ -42,20 +43,34 @@ bool has_word(std::string_view text, std::string_view word) {
     return false;
 }
 
-/// Turns a table row `| THEIRS | OURS | NOTE |` into one line per cell.
+/// Turns a table row `| THEIRS | OURS | NOTE |` into indented lines, with the note wrapped.
 std::string row_as_text(std::string row) {
     replace_all(row, "\\|", "\1");
     std::string out;
-    std::string_view indent = "  ";
+    std::size_t indent = 4;
     for (const auto cell : split(std::string_view(row).substr(1), '|')) {
         std::string text = trimmed(cell);
+        const bool code = text.starts_with('`');
         replace_all(text, "\1", "|");
         replace_all(text, "` `", "   # ");
         std::erase(text, '`');
-        if (!text.empty()) out += fmt::format("{}{}\n", indent, text);
-        indent = "      ";
+        if (!text.empty())
+            out += std::string(indent, ' ') + (code ? text : filled(text, 80, indent)) + "\n";
+        indent = 8;
     }
     return out;
+}
+
+/// Plain text of the page about other packages, or of a section.
+std::string plain_peers(std::string_view markdown) {
+    std::string text;
+    for (const auto line : split(markdown, '\n')) {
+        if (line.starts_with("| `"))
+            text += row_as_text(std::string(line));
+        else if (!line.starts_with('|') && !line.starts_with("<!--"))
+            text += fmt::format("{}\n", line);
+    }
+    return plain_page(text);
 }
 
 /// Term of a paragraph of the glossary, `**term** (other name, other name): ...`, and its other
@@ -142,9 +157,10 @@ const std::vector<Topic>& topics() {
     static const auto all = [] {
         std::vector<Topic> found;
         for (const GuidePage& page : guide())
-            if (page.name != peers_page && page.name != index_page)
+            if (page.name != index_page)
                 found.push_back(
-                    {std::string(page.name), heading_of(page.text), plain_page(page.text)});
+                    {std::string(page.name), heading_of(page.text),
+                     page.name == peers_page ? plain_peers(page.text) : plain_page(page.text)});
         return found;
     }();
     return all;
@@ -152,26 +168,26 @@ const std::vector<Topic>& topics() {
 
 std::string coming_from(std::string_view name) {
     std::string word = lower_case(name);
-    if (const auto dot = word.rfind('.'); dot != word.npos && word != peers_page)
-        word.erase(0, dot + 1);
+    word.erase(0, word.rfind('.') + 1);  // qmc.Halton
     const bool is_name = word.size() > 1 && std::isalpha(static_cast<unsigned char>(word[0])) != 0;
     if (!is_name) return {};
     std::string found;
-    std::string heading;
-    bool all = false;
-    for (const auto line : split(text_of(guide(), peers_page), '\n')) {
-        if (line.starts_with("## ")) {
-            heading = line.substr(3);
-            all = word == peers_page || has_word(lower_case(heading), word);
-            if (all) found += heading + "\n";
-        } else if (line.starts_with("| `")) {
-            const bool asked = has_word(lower_case(line.substr(0, line.find("` | `"))), word);
-            if (asked && !all && !heading.empty()) found += std::exchange(heading, "") + "\n";
-            if (asked || all) found += row_as_text(std::string(line));
-        } else if (all && !line.empty() && !line.starts_with("|") && !line.starts_with("<!--") &&
-                   !line.starts_with("Read on:")) {
-            found += fmt::format("  {}\n", line);
-        }
+    std::string_view rest = text_of(guide(), peers_page);
+    rest = rest.substr(0, rest.rfind("<!--"));
+    constexpr std::string_view mark = "\n## ";
+    for (auto at = rest.find(mark); at != rest.npos; at = rest.find(mark)) {
+        rest.remove_prefix(at + mark.size());
+        const std::string_view section = rest.substr(0, rest.find(mark));
+        const std::string heading(section.substr(0, section.find('\n')));
+        std::string rows;
+        for (const auto line : split(section, '\n'))
+            if (line.starts_with("| `") &&
+                has_word(lower_case(line.substr(0, line.find("` | `"))), word))
+                rows += row_as_text(std::string(line));
+        if (has_word(lower_case(heading), word))
+            found += plain_peers(section);
+        else if (!rows.empty())
+            found += fmt::format("{}\n{}", heading, rows);
     }
     return found;
 }

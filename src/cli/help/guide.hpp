@@ -53,7 +53,7 @@ std::vector<std::string> glossary_terms();
 std::string glossary_entry(std::string_view word);
 
 /// Equivalents of a name in another package (latinhypercube, qmc.Halton), from the page
-/// coming-from; for a package (scipy), all its rows. Ignores case; empty if nothing is found.
+/// coming-from; for a package (scipy), its section. Ignores case; empty if nothing is found.
 std::string coming_from(std::string_view name);
 
 /// The section of the guide's page about Python that has a name, such as qmc.QMCEngine, in its code

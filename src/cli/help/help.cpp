@@ -300,10 +300,10 @@ HelpPage page_of_topic(const Topic& topic) {
             page.section(std::string(part.substr(3)));
         else if (part.starts_with("### "))
             page.subsection(std::string(part.substr(4)));
-        else if (part.starts_with("    ") || part.starts_with('|'))
+        else if (part.starts_with("    "))
             page.lines(part);
-        else if (part.starts_with("- "))
-            page.lines(filled_page(part, text_columns()));
+        else if (part.starts_with("- ") || part.starts_with('|'))
+            page.lines(filled_page(part, 72));  // man indents by seven columns
         else
             page.paragraph(std::string(trim(part)));
         rest.remove_prefix(std::min(end + 2, rest.size()));
@@ -344,9 +344,10 @@ std::string help_of_word(const std::string& name) {
         if (const Topic* topic = find_topic(kind.name))
             return filled_page(topic->text, text_columns());
     }
-    if (const std::string lines = coming_from(name); !lines.empty())
-        found += (found.empty() ? "" : "\n") + lines;
-    if (found.empty()) found = coming_from(name.substr(name.rfind(' ') + 1));  // qmc Halton
+    std::string lines = coming_from(name);
+    if (found.empty() && lines.empty())
+        lines = coming_from(name.substr(name.rfind(' ') + 1));  // qmc Halton
+    if (!lines.empty()) found += (found.empty() ? "" : "\n") + filled_page(lines, text_columns());
     if (found.empty()) found = filled_page(python_section(name), text_columns());
     if (!found.empty()) return found;
     refuse_name(name);
