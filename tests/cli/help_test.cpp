@@ -149,7 +149,7 @@ TEST(Help, FillsLines) {
                           "12. next\n\n    code  as it is\n| a | table |\nend\n",
                           14),
               "# A title that is long\n\nOne two three.\n- an item of\n  two lines\n12. next\n\n"
-              "    code  as it is\n| a | table |\nend\n");
+              "    code  as it is\n| a |\n    table |\nend\n");
 }
 
 // A terminal with 60 columns; output to a pipe has 80. Words, commands and examples are not broken.
