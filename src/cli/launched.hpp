@@ -39,7 +39,7 @@ Ranks& joined_ranks();
 /// a rank that failed earlier. Joins the ranks first if they share the verb.
 Error shared_failure(std::string_view verb, const Error& error);
 
-/// Leaves the ranks. Call it after all messages: a launcher ends all processes when one fails.
+/// Leaves the ranks. Call it after all output: a launcher ends all processes when one fails.
 void leave_ranks();
 
 }  // namespace stipple::cli

@@ -88,7 +88,7 @@ std::string joined_by(const Json& file) {
     return items.empty() ? "" : "<ul class=\"constraints\">\n" + items + "</ul>\n";
 }
 
-/// The parameter file in a domain's spec; null for other domains.
+/// Parameter file in the spec of an experiment's domain; null for all other domains.
 Json file_of(const std::string& domain) {
     if (!is_experiment(domain)) return {};
     const Spec spec = parse_spec(domain);

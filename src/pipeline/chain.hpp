@@ -187,7 +187,7 @@ PointSet image_of(const PointSet& points, const WarpChain& chain, const RunConte
 
 /// Returns the preimages of all points, with their provenance. Coordinates that no warp takes keep
 /// their domain.
-/// @throws Error(input) for points of another dimension; as WarpChain::mapped()
+/// @throws Error(input) for points of another dimension; the errors of WarpChain::mapped()
 PointSet preimage_of(const PointSet& points, const WarpChain& chain, const RunContext& run);
 
 /// Warns if points were dropped, so that only `kept` of `count` points remain.

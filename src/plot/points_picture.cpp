@@ -609,7 +609,7 @@ class PairSheet {
             if (plane_) {
                 std::tie(width_, height_) = frame_size(picture_, box_, wide, high);
                 aside = std::max(std::floor((wide - width_) / 2), 0.0);
-            } else {  // coordinates may have different units
+            } else {  // units may differ, so the panels need no common scale
                 width_ = std::max(std::floor(wide), least);
                 height_ = high > 0 ? high : width_;
             }

@@ -125,7 +125,7 @@ StudySummary summary_of(std::span<const StudyValue> values);
 /// Whether results under a key are errors, for which the distance from 0 matters.
 bool is_error_key(std::string_view key);
 
-/// Reads a study's table or, as means, its summary. Returns nullopt if the text is neither.
+/// Reads a study's table as StudySummary, or its summary as MeanRows; nullopt if it is neither.
 /// @throws Error(input) for a line that is not a row; Error(cancelled)
 std::optional<std::variant<std::vector<MeanRow>, StudySummary>> read_study(
     std::string_view bytes, const std::string& source, const RunContext& run);

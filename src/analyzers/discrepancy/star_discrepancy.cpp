@@ -402,7 +402,7 @@ Report of_projections(const PointSet& points, std::size_t size, const Limits& li
     return result;
 }
 
-/// Whether tables are requested. @throws Error(usage) for sizes that no prefix can have
+/// Whether tables of prefixes or projections are requested. @throws Error(usage)
 bool wants_families(const Values& options) {
     if (options.given(prefixes) && options.given(every))
         fail(ErrorKind::usage, "--prefixes and --every cannot be combined; give one of them");

@@ -447,7 +447,7 @@ bool follows_domain(const PointSet& points) {
     return true;
 }
 
-/// Chooses how to sample uniformly for --compare. @throws Error(input) if that is impossible
+/// Chooses how --compare gets its uniform estimate. @throws Error(input) if there can be none
 Uniform uniform_for(const PointSet& points, const RegionView& view, const Support& support) {
     if (points.count() < 2) fail(ErrorKind::input, "--compare: needs at least 2 points, not 1");
     const Domain& domain = *points.domain;

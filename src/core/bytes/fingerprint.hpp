@@ -26,7 +26,7 @@ std::uint64_t fingerprint(std::span<const double> numbers);
 /// Formats 16 hexadecimal digits.
 std::string format_fingerprint(std::uint64_t value);
 
-/// Fingerprint of the beginning of a file, whose bytes come in pieces or, from memory, at once.
+/// Fingerprint of the first 2^20 bytes of a file, which are added in pieces of any size.
 class FrontFingerprint {
   public:
     void add(std::string_view bytes) {

@@ -58,7 +58,7 @@ std::string coded_range(std::uint64_t levels, bool ends);
 Plan plan_of_runs(const Request& request, std::uint64_t runs, std::size_t factors,
                   const std::string& design);
 
-/// Like plan_of_runs(), for `others` runs and those of --center at the centre.
+/// Like plan_of_runs(), for `others` runs plus the number of centre runs from --center.
 Plan plan_with_center(const Request& request, const Values& options, std::uint64_t others,
                       std::size_t factors, const std::string& design);
 

@@ -291,7 +291,7 @@ CrowdExtent crowd_extent(std::span<const double> rows, std::size_t directions,
         volumes.push_back(volume);
     }
     const double points = static_cast<double>(inner) - 1.0 / 3;  // points in a median ball
-    constexpr double inside = 0.4;  // quantile of the volumes; such balls rarely reach beyond a rim
+    constexpr double inside = 0.4;  // quantile; balls this small rarely cross the set's boundary
     return {d, quantile(std::move(volumes), inside) * static_cast<double>(others.size()) / points};
 }
 

@@ -115,7 +115,7 @@ class AnchoredObjective final : public Objective {
   private:
     static constexpr std::size_t lanes = 16;
 
-    /// Hits and buffers of one thread, for a range of planes.
+    /// A range of planes, searched by one thread: its buffers, and the boxes found (hits).
     struct Part {
         std::vector<float> counts;
         std::vector<float> reaches;

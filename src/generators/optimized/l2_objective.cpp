@@ -74,7 +74,7 @@ constexpr std::size_t lanes = 64;  ///< points per block
 struct Row {
     std::vector<double> factors;    ///< `lanes` factors for each axis
     std::vector<double> before;     ///< products of the factors of the preceding axes
-    std::vector<double> slopes;     ///< along each axis: sums of slope times other axes' factors
+    std::vector<double> slopes;     ///< by axis: sums of its slope times the other axes' factors
     std::array<double, lanes> sum;  ///< sums of the products of all factors
 };
 

@@ -120,7 +120,7 @@ class Trade {
     std::size_t n_;
     Rows rows_;  ///< row of the point at each place
     Columns points_;
-    Rows columns_ = places();          ///< column of the point at each place
+    Rows columns_ = places();          ///< index in points_ of the point at each place
     std::vector<double> differences_;  ///< D of each column's point
     std::vector<double> diagonals_;
     std::vector<double> values_;

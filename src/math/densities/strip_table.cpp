@@ -58,7 +58,7 @@ struct SampledPatch {
         return top;
     }
 
-    /// Error from dropping the patch because f is 0 inside it.
+    /// Error if the patch gets no mass because f is 0 at a sample inside it; otherwise 0.
     [[nodiscard]] double loss() const {
         const bool gap = f[1][1] == 0 || f[1][2] == 0 || f[1][3] == 0;
         return gap ? top() : 0;
@@ -210,8 +210,8 @@ class StripTabulator {
         }
     }
 
-    /// Samples f at the next points of a sequence that fills the box ever more densely, different
-    /// from the probes. Returns those where f differs from the table by more than expected.
+    /// Compares f with the table at 2^17 points that are not probes: part `look` of a Kronecker
+    /// sequence. Returns those where the difference exceeds the patch's expected().
     std::vector<Surprise> surprises(int look) {
         constexpr std::array<double, 2> step{0.7548776662466927, 0.5698402909980532};
         constexpr std::size_t at_once = 4096;

@@ -46,7 +46,7 @@ class PermutedInverse {
 
     std::uint64_t base_;
     std::uint64_t block_;                  ///< b^t, the number of values of the t low digits
-    double margin_;                        ///< minimum distance of behind() from 0 and 1
+    double margin_;                        ///< behind() is clamped to [margin_, 1 - margin_]
     std::vector<double> low_;              ///< images of the t low digits, as integers
     std::vector<std::uint16_t> permuted_;  ///< permutations of the higher positions, in order
     std::vector<double> zeros_;            ///< fraction if all digits from a position on are 0

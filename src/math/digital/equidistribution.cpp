@@ -121,7 +121,7 @@ class CountingProbe final : public Probe {
 
     const Net& net_;
     const RunContext& run_;
-    std::vector<std::vector<std::int32_t>> boxes_;  ///< box of each point, by number of cuts
+    std::vector<std::vector<std::int32_t>> boxes_;  ///< boxes_[c][i]: box of point i after c cuts
     std::vector<std::size_t> used_;                 ///< number of digits of each cut
     std::vector<std::uint32_t> counts_;
 };

@@ -89,7 +89,7 @@ class Gathered {
     GridCells lines_;
 };
 
-/// Transforms all columns and returns their frequencies -F..F, scaled: planes x (2F + 1) x width.
+/// Transforms all columns. Returns frequencies -F..F, scaled, as planes x (2F + 1) x width.
 std::vector<std::complex<double>> transform_columns(const Columns& in,
                                                     std::span<const double> factors,
                                                     Planning planning, const RunContext& run) {

@@ -103,7 +103,7 @@ struct Chunk {
     alignas(64) std::array<std::array<std::int32_t, chunk>, Dimension> piece;
     alignas(64) std::array<std::int32_t, chunk> corner;  ///< first cell in the buffer
     alignas(
-        /// Values of the window, after the margin.
+        /// Values of the window for each point and axis, after `margin` zeros.
         64) double values[chunk][Dimension][margin + vectors_of(Fours) * lanes];
 
     Chunk() {

@@ -300,7 +300,7 @@ Numbers numbers_of(const PointSet& points, const Axes& axes, const RunContext& r
 struct Scaling {
     std::vector<int> exponents;  ///< even numbers, by factor
     double any_order = 0;        ///< any product of some of the factors is at most 2^any_order
-    double growth = 0;           ///< any product of the last few factors is at most 2^growth
+    double growth = 0;           ///< product of the last k factors is at most 2^growth, for any k
 };
 
 Scaling scaling_of(const Numbers& numbers, const std::vector<const FactorForm*>& forms) {

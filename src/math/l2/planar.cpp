@@ -152,7 +152,7 @@ void AxisSums::add(const AxisSums& other) {
 
 constexpr std::size_t stretch = std::size_t{1} << 14;
 
-/// Computes the sums for points in order of t; moments only if requested.
+/// Computes the sums of items sorted by t; those for moments only if requested.
 AxisSums axis_sums(const std::vector<Item>& items, bool moments, const RunContext& run) {
     std::vector<std::pair<Uint128, Uint128>> before(block_count(items.size(), stretch));
     for_each_block(run.stage(0, 0.2), items.size(), stretch, [&](const Block& block) {

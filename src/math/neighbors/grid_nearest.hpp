@@ -19,7 +19,7 @@
 
 namespace stipple {
 
-/// Returns nullopt in other dimensions, or if points are crowded into few cells.
+/// Returns nullopt for d > 3, too many points, extreme sides, or points crowded into few cells.
 /// @throws Error(cancelled)
 std::optional<std::vector<Neighbor>> all_nearest_by_grid(std::span<const double> rows,
                                                          const Box& box, bool torus,

@@ -57,7 +57,7 @@ class Polytope {
     void add_group(const std::vector<std::size_t>& coordinates, const std::vector<HalfSpace>& cuts);
     void take_moments(const Group& group);
     void map_some(const Group& group, std::span<const double> cube, std::span<double> image) const;
-    /// Coordinates of a point in the frame of a group.
+    /// A point's coordinates in a group, scaled from the group's `frame` to the unit cube.
     static PolytopePoint framed(const Group& group, std::span<const double> point);
 
     Box box_;

@@ -143,7 +143,7 @@ LineMoments PowerLaw::moments() const {
             sign * heavier * heavier * heavier * third};
 }
 
-/// An interval on one side of 0; the power is measured from the heavier end.
+/// An interval on one side of 0; powers are relative to the end with the larger |x|^p.
 template <Root root>
 struct OneSided final : PowerLaw {
     using PowerLaw::PowerLaw;

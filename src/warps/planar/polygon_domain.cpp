@@ -173,8 +173,8 @@ void PolygonDomain::measure_rim(const std::vector<RingSegment>& edges) {
     slack_ = 16 * std::numeric_limits<double>::epsilon() * size;
 }
 
-/// Makes one slab between each two consecutive heights of vertices: the leaves of a tree whose
-/// nodes hold the trapezoids.
+/// Makes a slab between each two consecutive heights of vertices. Stores the trapezoids in a
+/// segment tree with the slabs as leaves.
 void PolygonDomain::cut_bands(const RunContext& run) {
     std::vector<UpwardEdge> edges;
     std::vector<double> heights;

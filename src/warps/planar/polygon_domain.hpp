@@ -110,7 +110,7 @@ class PolygonDomain final : public NamedDomain {
         double height() const { return top - bottom; }
     };
 
-    /// Intersection of a row with the parts of one band.
+    /// The parts of one band, all crossed by a row at the same relative height.
     struct Cut {
         const Part* parts;
         std::size_t count;

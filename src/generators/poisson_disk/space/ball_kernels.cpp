@@ -93,7 +93,7 @@ struct LineCover {
         first = std::min(static_cast<int>(ball.off[1] / side), 3) - (reach - 1);
         for (std::size_t l = 0; l < lines; ++l) {
             const float middle = static_cast<float>(static_cast<int>(l) + first) + 0.5F;
-            // Moves lines beyond the tile far away, so that the ball does not cover them.
+            // Lines beyond the tile count as far away, so that the ball does not cover them.
             const float from_tile =
                 std::abs(middle + static_cast<float>(4 * ball.cell[1] - along / 2));
             const float beyond = std::max(from_tile - static_cast<float>(along / 2), 0.0F);

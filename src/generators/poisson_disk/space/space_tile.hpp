@@ -42,7 +42,7 @@ class SpaceBits {
         if (x >= 4) bytes_[(x / 4 - 1) * strip + byte] |= static_cast<std::uint8_t>(bit << 4);
     }
 
-    /// Bits of layer z around a cell, from two cells before it on: bit x + 8 y.
+    /// Bits x + 8 y of layer z in the 5 x 5 x 5 cells around a cell, which is at x = y = z = 2.
     [[nodiscard]] std::uint64_t layer(const TileCell<3>& cell, std::size_t z) const {
         std::uint64_t word;
         const auto x = static_cast<std::size_t>(cell[0]);

@@ -100,8 +100,8 @@ class Annealing {
     /// @throws Error(cancelled), having recorded the best so far if the run keeps it
     void advance(double trials, const RunContext& run);
 
-    /// Best design so far and its score; for maximin, among the designs that reached a target or
-    /// ended a call of advance().
+    /// Best design so far and its score. Maximin compares only the start and designs that reach a
+    /// target, begin the final phase or end a call of advance().
     [[nodiscard]] const Design& best() { return trail_.best(); }
     [[nodiscard]] const Score& score() const { return score_; }
 

@@ -73,7 +73,7 @@ class Rounds {
   private:
     static constexpr std::uint64_t stream = std::uint64_t{1} << 33;  // not used by the generator
     static constexpr std::size_t most_kept = 4;
-    static constexpr double cold = 1e-3;  // first accepted fraction if a start is good
+    static constexpr double cold = 1e-3;  // initial accepted fraction if the start is already good
 
     [[nodiscard]] std::size_t points() const { return search_.start.points; }
 

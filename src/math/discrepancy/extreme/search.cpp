@@ -134,7 +134,7 @@ double section(const BoxGrid& grid, const Cell& cell, Extent extent) {
     return product;
 }
 
-/// Exact section(), times 2^digits of every axis except the first.
+/// section() as an exact integer, scaled by 2^digits of every axis except the first.
 Integer exact_section(const BoxGrid& grid, const Cell& cell, Extent extent) {
     Integer product = 1;
     for (std::size_t k = 0; k < axes_of(cell); ++k) {

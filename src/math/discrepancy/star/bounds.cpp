@@ -40,7 +40,7 @@ namespace {
 /// A box that covers all axes except one.
 struct AxisBox {
     double value = -1;
-    std::uint32_t rank = 0;  ///< rank of its end on this one axis
+    std::uint32_t rank = 0;  ///< rank of its end on the axis that it does not cover
     std::uint64_t points = 0;
 
     void take(const AxisBox& other) {

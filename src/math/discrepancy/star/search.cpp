@@ -143,9 +143,9 @@ class CellBounder {
           terms_(d_),
           least_(d_) {}
 
-    /// Shrinks the cell to corners of boxes that may be worse than the worst known one, and offers
-    /// some of its boxes. Copies the relevant points of `from` to `mine`. Returns false if nothing
-    /// is left to split.
+    /// Shrinks the cell to corners of boxes that may be worse than the worst known one. Offers its
+    /// largest open or smallest closed box on the way. Copies the relevant points of `from` to
+    /// `mine`. Returns false if nothing is left to split.
     bool tighten(Cell& cell, const Active& from, Active& mine) {
         filter(cell, from, mine);
         while (true) {

@@ -20,7 +20,7 @@ SearchResult search(const BoxGrid& grid, WorstBox worst, const SearchLimits& lim
 SearchResult sweep_or_search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits,
                              const RunContext& run);
 
-/// Searches without a known box: runs coordinate ascents first, as part of the work.
+/// Searches without a known box. Begins with coordinate ascents, which count against limits.work.
 SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run,
                         Peers* peers = nullptr);
 

@@ -231,7 +231,7 @@ class Sweep {
                        static_cast<float>(low), static_cast<float>(high));
     }
 
-    /// Computes the chord of a block between two strips; no point of the block may lie in between.
+    /// Bounds a block by a chord between two strips that have none of its points in between.
     void bound_block(std::size_t u, std::size_t from, std::size_t to) {
         constexpr double parts = 4096;  // keeps heights exact multiples of 1 / parts
         const double low = strip_x(from);
