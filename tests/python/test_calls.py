@@ -599,7 +599,7 @@ def test_forked_processes_have_a_worker_of_their_own():
 
 
 def test_interrupts_stop_long_work():
-    x = stipple.generate("random", 600, 8)  # takes minutes
+    x = stipple.generate("random", 2000, 12)  # takes hours
     sent = []
 
     def interrupt():
