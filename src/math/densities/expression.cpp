@@ -25,10 +25,10 @@ namespace {
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double whole_turn = 2 * std::numbers::pi;
-
 // Functions for formulas: the functions of src/math, extended to arguments outside their domains.
 
 CosSin turned(double x) { return std::isfinite(x) ? precise_cos_sin(x) : CosSin{nan, nan}; }
+double tangent(const CosSin& of_angle) { return of_angle.sin / of_angle.cos; }
 
 /// Angle in (-pi, pi], equally precise on both sides of the x axis.
 double angle(double y, double x) {
@@ -181,7 +181,7 @@ constexpr FormulaOperation operations[] = {
     {"^", 2, 6, power, powers},
     in_blocks("sin", 0, [](D x) { return turned(x).sin; }),
     in_blocks("cos", 0, [](D x) { return turned(x).cos; }),
-    in_blocks("tan", 0, [](D x) { return turned(x).sin / turned(x).cos; }),
+    in_blocks("tan", 0, [](D x) { return tangent(turned(x)); }),
     in_blocks("asin", 0, [](D x) { return angle(x, std::sqrt((1 - x) * (1 + x))); }),
     in_blocks("acos", 0, [](D x) { return angle(std::sqrt((1 - x) * (1 + x)), x); }),
     in_blocks("atan", 0, [](D x) { return angle(x, 1); }),
