@@ -203,14 +203,14 @@ class PointMarks {
         const Area& a = raster.area;
         const auto columns = static_cast<double>(raster.columns);
         const auto rows = static_cast<double>(raster.rows);
-        // A bin has its left and lower edge, which positions miss by their rounding errors.
-        constexpr double slack = 1e-9;
+        constexpr double slack = 1e-9;  // bins hold left and lower edges; positions are rounded
         for (std::size_t i = 0; i < set.count(); ++i) {
             if (i % patience == 0) run_.tick(i, set.count());
             const Position position = place(set[i]);
             const double x = (position.x - a.left) / a.width * columns + slack;
             const double up = (a.bottom() - position.y) / a.height * rows + slack;
-            if (!(x >= 0 && x <= columns + 1 && up >= 0 && up <= rows + 1)) continue;
+            if (!(x >= 0 && x <= columns + 2 * slack && up >= 0 && up <= rows + 2 * slack))
+                continue;
             const auto row = std::min(static_cast<std::size_t>(up), raster.rows - 1);
             visit((raster.rows - 1 - row) * raster.columns +
                   std::min(static_cast<std::size_t>(x), raster.columns - 1));
