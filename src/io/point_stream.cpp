@@ -286,8 +286,12 @@ class JoinedStream final : public PointStream {
     void number_words(std::span<double> rows) const {
         for (std::size_t i = 0; i < rows.size() && !numbers_.empty(); ++i)
             if (const auto& numbers = numbers_[i % numbers_.size()];
-                !numbers.empty() && std::isfinite(rows[i]))
-                rows[i] = numbers.at(static_cast<std::size_t>(rows[i]));
+                !numbers.empty() && std::isfinite(rows[i])) {
+                if (!(rows[i] >= 0 && rows[i] < static_cast<double>(numbers.size())))
+                    fail(ErrorKind::input, "{}: {} is not the number of a word",
+                         source_name(paths_[at_]), rows[i]);
+                rows[i] = numbers[static_cast<std::size_t>(rows[i])];
+            }
     }
 
     /// Opens the next file; returns false after the last one.
@@ -502,7 +506,7 @@ std::unique_ptr<PointStream> open_points(std::unique_ptr<Feed> feed, const std::
         points = std::make_unique<HeldSets>(
             read_sets(feed->ends_in_front() ? feed->front() : whole, path, inner, run, format));
     }
-    if (beside && points->provenance().version.empty())
+    if (beside && points->provenance().count == 0)
         run.notify(fmt::format("{}: not used, since {}", meta_path(path),
                                beside->sets == 0
                                    ? "it does not state where its sets of different sizes end"

@@ -124,6 +124,20 @@ TEST(Convert, SaysWhichColumnCountsTheRows) {
     EXPECT_EQ(notes("0,0.5\n1,0.25\n2,0.5\n"), "") << "no names";
 }
 
+TEST(Convert, RefusesNumbersOfNoWordWhenWordsAreJoined) {
+    const Sandbox box;
+    box.write("a.csv", "x,m\n0.5,oak\n0.25,brass\n");
+    box.write("b.csv", "x,m\n0.5,brass\n0.75,fir\n");
+    good(box.run({"-q", "convert", "a.csv", "-o", "a.npy", "--meta"}));
+    EXPECT_THAT(box.run({"convert", "a.npy"}).err, Not(HasSubstr("not used")));
+    std::string json = good(box.run({"-q", "convert", "b.csv", "-f", "json", "--meta"}));
+    json.replace(json.find("[0.75,1]"), 8, "[0.75,9]");
+    box.write("b.json", json);
+    const auto outcome = box.run({"convert", "--concat", "a.csv", "b.json"});
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("b.json: 9 is not the number of a word"));
+}
+
 TEST(Convert, RefusesFloat32ForLargerNumbers) {
     const Sandbox box;
     box.write("a.csv", "x,y\n0.5,3.4e38\n-1e300,1e-300\n");
