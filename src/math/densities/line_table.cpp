@@ -22,6 +22,7 @@ struct Sampled {
     double low;
     double high;
     std::array<double, 5> f;
+    bool gap = false;  ///< the table gives the piece no mass
 
     [[nodiscard]] double width() const { return high - low; }
     [[nodiscard]] double at(double part) const { return low + part * width(); }
@@ -32,7 +33,9 @@ struct Sampled {
         return {boole, std::abs(boole - simpson)};
     }
     [[nodiscard]] double mass() const { return width() * 0.5 * (f[0] + f[4]); }
-    [[nodiscard]] double error() const { return largest_bend(f) * width(); }
+    [[nodiscard]] double error() const {
+        return std::max(largest_bend(f), gap ? std::ranges::max(f) : 0) * width();
+    }
 };
 
 class LineTabulator {
@@ -49,7 +52,7 @@ class LineTabulator {
         double mass = 0;
         for (const Sampled& piece : pieces_) {
             pieces.push_back({piece.low, piece.high, piece.f[0], piece.f[4], piece.integral()});
-            if (has_gap(piece)) pieces.back().f_low = pieces.back().f_high = 0;
+            if (piece.gap) pieces.back().f_low = pieces.back().f_high = 0;
             mass += pieces.back().f_low + pieces.back().f_high;
         }
         if (!(mass > 0))
@@ -137,7 +140,8 @@ class LineTabulator {
     void add(const Sampled& piece) { put(pieces_.size(), piece); }
 
     /// Stores a piece at an index, or appends it.
-    void put(std::size_t index, const Sampled& piece) {
+    void put(std::size_t index, Sampled piece) {
+        piece.gap = has_gap(piece);
         worst_.emplace(piece.error(), index);
         error_ += piece.error();
         mass_ += piece.mass();

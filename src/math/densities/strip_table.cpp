@@ -28,6 +28,9 @@ struct SampledPatch {
     std::array<std::array<double, 5>, 3> f;
     /// Largest known error of the table between the samples; 0 unless it exceeds expected().
     double hidden = 0;
+    /// Whether f is 0 at a sample inside or next to an edge, but not at all samples: the table gives
+    /// the patch no mass.
+    bool gap = false;
 
     [[nodiscard]] double at(double part) const { return low + part * (high - low); }
 
@@ -58,11 +61,8 @@ struct SampledPatch {
         return top;
     }
 
-    /// Error if the patch gets no mass because f is 0 at a sample inside it; otherwise 0.
-    [[nodiscard]] double loss() const {
-        const bool gap = f[1][1] == 0 || f[1][2] == 0 || f[1][3] == 0;
-        return gap ? top() : 0;
-    }
+    /// Error of a gap; otherwise 0.
+    [[nodiscard]] double loss() const { return gap ? top() : 0; }
 
     /// Largest difference from the table that the samples suggest.
     [[nodiscard]] double expected() const {
@@ -115,7 +115,7 @@ class StripTabulator {
             out.push_back({strip.low, strip.high, {}});
             for (const SampledPatch& patch : strip.patches) {
                 StripPatch shape{patch.low, patch.high, {}, {}};
-                if (!has_gap(strip, patch)) {
+                if (!patch.gap) {
                     shape.left = {patch.f[0][0], patch.f[0][4]};
                     shape.right = {patch.f[2][0], patch.f[2][4]};
                 }
@@ -157,6 +157,7 @@ class StripTabulator {
         std::size_t i = 0;
         for (auto& line : patch.f)
             for (const std::size_t k : which) line[k] = values_[i++];
+        patch.gap = has_gap(strip, patch);
     }
 
     /// Coordinate of a probe along an axis; probes form a grid all over the box.
@@ -387,19 +388,22 @@ class StripTabulator {
         std::ranges::sort(strip.patches, {}, &SampledPatch::low);
     }
 
-    /// Error that halving along y may reduce. Hidden errors count only if the patch is tall for its
-    /// width: in flatter halves, no known point might show the feature any more.
+    /// Error that halving along y may reduce. Hidden errors, and gaps that do not show along x, count
+    /// only if the patch is tall for its width: in flatter halves, no known point might show the
+    /// feature any more.
     [[nodiscard]] double bend_of(const SampledStrip& strip, const SampledPatch& patch) const {
         const bool tall =
             (patch.high - patch.low) * box_.extent(0) > strip.width() * box_.extent(1);
-        return tall ? std::max(patch.bend(), patch.hidden) : patch.bend();
+        if (!tall) return patch.bend();
+        const double loss = patch.loss();
+        return std::max({patch.bend(), patch.hidden, loss > 2 * patch.slope() ? loss : 0});
     }
 
     void put_error(SampledStrip& strip) const {
         strip.error = 0;
         for (const SampledPatch& patch : strip.patches)
             strip.error +=
-                strip.area(patch) * (bend_of(strip, patch) + patch.slope() + patch.loss());
+                strip.area(patch) * std::max(bend_of(strip, patch) + patch.slope(), patch.loss());
     }
 
     template <class Account>
@@ -464,12 +468,13 @@ class StripTabulator {
             tolerance_, error_ / mass_, strip.low);
     }
 
-    /// True if f is 0 somewhere inside the patch, but not in all of it.
+    /// Whether f is 0 at a sample inside the patch, but not at all samples. A 0 on an edge counts
+    /// only if f is also 0 at a point close to an edge.
     bool has_gap(const SampledStrip& strip, const SampledPatch& patch) {
         if (patch.top() == 0) return false;
-        bool any = false;
-        for (const auto& line : patch.f) any = any || std::ranges::min(line) == 0;
-        if (!any) return false;
+        if (patch.f[1][1] == 0 || patch.f[1][2] == 0 || patch.f[1][3] == 0) return true;
+        const auto has_zero = [](const auto& line) { return std::ranges::min(line) == 0; };
+        if (std::ranges::none_of(patch.f, has_zero)) return false;
         constexpr double near = 0x1p-12;
         points_.clear();
         for (const double s : {near, 0.5, 1 - near})
@@ -478,7 +483,7 @@ class StripTabulator {
                 points_.push_back(patch.at(t));
             }
         look_at_points();
-        return std::ranges::min(values_) == 0;
+        return has_zero(values_);
     }
 
     const std::string& what_;

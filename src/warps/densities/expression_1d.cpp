@@ -140,6 +140,7 @@ Warp unit() {
             .strata = "xi1 is the fraction of the mass below x; it is used directly",
             .options = Schema(density, range, breaks, tolerance),
             .aliases = {"formula-1d"},
+            .stream_version = 2,
             .mapping = make};
 }
 

@@ -97,7 +97,7 @@ Warp unit() {
             .traits = {.tabulated = true},
             .options = Schema(density, bounds, tolerance),
             .aliases = {"formula-2d"},
-            .stream_version = 2,
+            .stream_version = 3,
             .mapping = make};
 }
 

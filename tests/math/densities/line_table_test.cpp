@@ -102,6 +102,18 @@ TEST(TabulateLine, PutsNoMassBeyondAJumpToZero) {
     }
 }
 
+// A piece that is 0 at its end and just beyond, but linear at its samples, shows no bend.
+TEST(TabulateLine, CountsAGapNextToAnEndAsAnError) {
+    for (const double edge : {50 / 97.0 + 1e-7, 96 / 97.0 + 1e-6}) {
+        const LineTable table(
+            tabulated([&](double x) { return std::max(0.0, x - edge); }, {}, 1e-5));
+        for (const double u : {0.01, 0.1, 0.5, 0.9}) {
+            const double share = (table.quantile(u) - edge) / (1 - edge);
+            EXPECT_NEAR(share * share, u, 2e-5) << edge;
+        }
+    }
+}
+
 TEST(TabulateLine, KeepsPiecesThatTouchZero) {
     const auto pieces = tabulated([](double x) { return x; });
     EXPECT_EQ(pieces.front().f_low, 0);
