@@ -42,14 +42,20 @@ Randomization make(const Values& options, const ScrambleRequest& request) {
         options.given(cells) ? static_cast<std::uint64_t>(options[cells]) : request.count;
     if (count == 0)
         fail(ErrorKind::usage, "micro-jitter: --cells: needed, as the number of points is unknown");
-    const Rng rng = scramble_numbers(request.seed, ScrambleStream::micro_jitter);
-    return [count, rng, which = request.coordinates](std::uint64_t first, std::span<double> rows) {
-        // The fixed stride gives a coordinate the same u no matter which others are scrambled.
+    return [count, seed = request.seed, which = request.coordinates](std::uint64_t first,
+                                                                     std::span<double> rows) {
+        // The fixed stride gives a coordinate the same u no matter which others are scrambled. Each
+        // 2^44 points have a stream of their own, as there are 2^64 numbers in one.
         constexpr std::uint64_t stride = std::uint64_t{1} << 20;
+        const auto rng = [seed](std::uint64_t index) {
+            const auto stream = static_cast<std::uint64_t>(ScrambleStream::micro_jitter);
+            return Rng(seed, stream + (index >> 44 << 32));
+        };
         const std::size_t d = which.size();
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const auto low = static_cast<double>(interval_of(rows[i], count));
-            rows[i] = rng.uniform((first + i / d) * stride + which[i % d]);
+            const std::uint64_t index = first + i / d;
+            rows[i] = rng(index).uniform(index * stride + which[i % d]);
             place_in_strata({.low = {&low, 1}, .parts = count}, &rows[i], 1);
         }
     };

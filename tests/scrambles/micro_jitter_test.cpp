@@ -40,4 +40,13 @@ TEST(MicroJitter, GoesOnWhereAStretchBegins) {
     for (std::size_t i = 0; i < 40; ++i) EXPECT_EQ(tail[i][0], whole[60 + i][0]);
 }
 
+// Random numbers are numbered by 64 bits, of which a coordinate takes 20.
+TEST(MicroJitter, DoesNotRepeatItself) {
+    const PointSet plain = points_of({{0.5, 0.5}});
+    const std::string spec = "micro-jitter:cells=1";
+    const std::uint64_t far = std::uint64_t{1} << 44;
+    EXPECT_NE(scrambled(plain, spec, 1, far)[0][0], scrambled(plain, spec, 1, 0)[0][0]);
+    EXPECT_NE(scrambled(plain, spec, 1, 2 * far)[0][0], scrambled(plain, spec, 1, far)[0][0]);
+}
+
 }  // namespace stipple::testing::micro_jitter_test

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -16,8 +17,18 @@ constexpr std::size_t products = 4;
 
 }  // namespace
 
-MomentSums::MomentSums(std::vector<double> about, std::uint64_t first)
-    : about_(std::move(about)), next_(first) {}
+MomentSums::MomentSums(std::vector<double> about, std::uint64_t first, std::span<const double> rows)
+    : about_(std::move(about)), unit_(about_.size(), 1), next_(first) {
+    const std::size_t d = width();
+    for (std::size_t k = 0; k < d; ++k) {
+        double most = 0;
+        for (std::size_t at = k; at < rows.size(); at += d)
+            most = std::max(most, std::abs(rows[at] - about_[k]));
+        constexpr int usual = 128;  // powers of numbers between 2^-128 and 2^128 need no unit
+        const int exponent = most > 0 && std::isfinite(most) ? std::ilogb(most) : 0;
+        if (std::abs(exponent) > usual) unit_[k] = std::ldexp(1, std::clamp(exponent, -1021, 1021));
+    }
+}
 
 std::size_t MomentSums::size() const {
     const std::size_t d = width();
@@ -32,9 +43,11 @@ std::size_t MomentSums::pair(std::size_t i, std::size_t j) const {
 void MomentSums::add_block(std::span<const double> rows, std::span<double> sums) const {
     const std::size_t d = width();
     std::vector<double> off(d);
+    std::vector<double> inverse(d);
+    for (std::size_t k = 0; k < d; ++k) inverse[k] = 1 / unit_[k];
     for (std::size_t at = 0; at < rows.size(); at += d) {
         for (std::size_t k = 0; k < d; ++k) {
-            const double x = off[k] = rows[at + k] - about_[k];
+            const double x = off[k] = (rows[at + k] - about_[k]) * inverse[k];
             double power = 1;
             for (std::size_t p = 0; p < powers; ++p) sums[k * powers + p] += power *= x;
         }
@@ -121,7 +134,7 @@ void MomentSums::merge(Unpacker& from) {
     }
 }
 
-/// Central moments of column k, from those about c: m_p = E (x - c - e)^p, e = mean - c.
+/// Central moments of column k, from those about c in the column's unit: m_p = E (z - e)^p, e = E z.
 void MomentSums::column(const Node& all, std::size_t k, SampleAndErrors& out) const {
     const auto n = static_cast<double>(count_);
     double raw[powers + 1] = {1};
@@ -144,13 +157,16 @@ void MomentSums::column(const Node& all, std::size_t k, SampleAndErrors& out) co
     const double g4 = flat ? 0 : central[4] / (m2 * m2);
     const double g5 = flat ? 0 : central[5] / (m2 * m2 * spread);
     const double g6 = flat ? 0 : central[6] / (m2 * m2 * m2);
+    const double unit = unit_[k];
     const double variance = m2 * n / (n - 1);
     const auto root = [n](double x) { return std::sqrt(std::max(x, 0.0) / n); };
-    out.value.mean.push_back(about_[k] + e);
-    out.value.variance.push_back(variance);
+    out.value.mean.push_back(about_[k] + unit * e);
+    out.value.variance.push_back(variance * unit * unit);
     out.value.skewness.push_back(g1);
-    out.error.mean.push_back(root(variance));
-    out.error.variance.push_back(m2 * root(g4 - (n - 3) / (n - 1)));
+    out.error.mean.push_back(unit * root(variance));
+    out.error.variance.push_back(m2 * root(g4 - (n - 3) / (n - 1)) * unit * unit);
+    if (!flat && out.value.variance.back() < std::numeric_limits<double>::min())
+        fail(ErrorKind::limit, "variances of coordinates are below the smallest normal double");
     out.error.skewness.push_back(
         flat ? 0 : root(g6 - 3 * g1 * g5 - 6 * g4 + 2.25 * g1 * g1 * g4 + 8.75 * g1 * g1 + 9));
 }
@@ -176,16 +192,19 @@ void MomentSums::cross(const Node& all, std::size_t i, std::size_t j, SampleAndE
     const double error = std::sqrt(std::max(square, 0.0) / n);
     const std::size_t d = width();
     for (const std::size_t place : {i * d + j, j * d + i}) {
-        out.value.covariance[place] = covariance * n / (n - 1);
-        out.error.covariance[place] = error;
+        out.value.covariance[place] = covariance * n / (n - 1) * unit_[i] * unit_[j];
+        out.error.covariance[place] = error * unit_[i] * unit_[j];
     }
 }
 
 SampleAndErrors MomentSums::moments() const {
     const std::size_t d = width();
     const Node all = total();
-    if (!std::ranges::all_of(all.sums, [](double x) { return std::isfinite(x); }))
-        fail(ErrorKind::limit, "the sixth powers of coordinates are beyond the largest double");
+    const auto require_finite = [](const std::vector<double>& numbers, const char* which) {
+        if (!std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); }))
+            fail(ErrorKind::limit, "{} of coordinates are beyond the largest double", which);
+    };
+    require_finite(all.sums, "the sixth powers");
     SampleAndErrors out;
     out.value.covariance.resize(d * d);
     out.error.covariance.resize(d * d);
@@ -196,6 +215,8 @@ SampleAndErrors MomentSums::moments() const {
     }
     for (std::size_t i = 0; i < d; ++i)
         for (std::size_t j = i + 1; j < d; ++j) cross(all, i, j, out);
+    require_finite(out.value.covariance, "variances");
+    require_finite(out.error.covariance, "standard errors of variances");
     return out;
 }
 

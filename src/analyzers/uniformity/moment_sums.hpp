@@ -2,8 +2,9 @@
 //
 // Sums of powers of rows of numbers, and the moments of a sample that follow from them.
 //
-//     S_p = sum (x - c)^p, p = 1..6, and for each pair of columns sum (x - c)^p (y - c')^q, p, q in
-//     {1, 2}; c is near the mean, so that central moments lose little by cancellation.
+//     S_p = sum z^p, p = 1..6, with z = (x - c) / u, and for each pair of columns sum z^p z'^q, p, q
+//     in {1, 2}; c is near the mean, so that central moments lose little by cancellation, and u a
+//     power of two, 1 unless the sixth powers of x - c could be too large or too small for doubles.
 //
 // A batch is summed by blocks; the blocks' sums are added in order with compensation for rounding
 // (Neumaier). Sums of batches are added in pairs, pairs of pairs and so on, like a binary counter:
@@ -43,9 +44,10 @@ struct SampleAndErrors {
 
 class MomentSums {
   public:
-    /// Makes sums of powers of x - about, with one value of `about` per column; `first` is the
-    /// index of the first batch.
-    explicit MomentSums(std::vector<double> about, std::uint64_t first = 0);
+    /// Sums about one value per column; `first` is the index of the first batch. The units are those
+    /// that suit `rows`, or 1 without them.
+    explicit MomentSums(std::vector<double> about, std::uint64_t first = 0,
+                        std::span<const double> rows = {});
 
     /// Takes the next batch.
     void add(std::span<const double> rows, const RunContext& run);
@@ -54,7 +56,8 @@ class MomentSums {
     /// Merges the sums of the batches that directly follow this object's.
     void merge(Unpacker& from);
 
-    /// Moments of at least two rows. @throws Error(limit) if powers exceed the largest double
+    /// Moments of at least two rows. @throws Error(limit) if powers or moments exceed the largest
+    /// double, or variances are below the smallest normal one
     [[nodiscard]] SampleAndErrors moments() const;
 
   private:
@@ -81,6 +84,7 @@ class MomentSums {
     void cross(const Node& all, std::size_t i, std::size_t j, SampleAndErrors& out) const;
 
     std::vector<double> about_;
+    std::vector<double> unit_;
     std::uint64_t next_ = 0;  ///< index of the next batch
     std::uint64_t count_ = 0;
     std::vector<Node> nodes_;  ///< in the order of their batches

@@ -112,8 +112,8 @@ class Summation final : public SharedAccumulator {
     explicit Summation(const Arrival& arrival) : domain_(arrival.domain) {}
 
     void add(std::span<const double> rows, const RunContext& run) override {
-        if (!raw_) begin(rows);
         const auto cubes = cube_rows(*domain_, rows, first_ + n_, outside_, run);
+        if (!raw_) begin(rows, cubes);
         n_ += rows.size() / domain_->dimension();
         if (outside_.count > 0) return;
         raw_->add(rows, run);
@@ -137,7 +137,8 @@ class Summation final : public SharedAccumulator {
 
     void begin_at(std::uint64_t first, std::span<const double> head) override {
         first_ = first;
-        begin(head);
+        Outside counted_elsewhere;
+        begin(head, cube_rows(*domain_, head, 0, counted_elsewhere, {}));
     }
 
     std::string state(const RunContext&) override {
@@ -158,12 +159,12 @@ class Summation final : public SharedAccumulator {
     }
 
   private:
-    /// Starts the sums, about means of the set's first batch.
-    void begin(std::span<const double> rows) {
+    /// Starts the sums, about means of the set's first batch and of its image on the cube.
+    void begin(std::span<const double> rows, std::span<const double> cubes) {
         const std::uint64_t batch = first_ / arrival_batch(domain_->dimension());
-        raw_.emplace(means_of(rows, domain_->dimension()), batch);
+        raw_.emplace(means_of(rows, domain_->dimension()), batch, rows);
         if (domain_->even())
-            cube_.emplace(std::vector<double>(domain_->cube_dimension(), 0.5), batch);
+            cube_.emplace(means_of(cubes, domain_->cube_dimension()), batch, cubes);
         level_ = is_level(rows);
     }
 

@@ -178,9 +178,50 @@ TEST(Moments, NeedTwoPointsOnTheirDomain) {
               "input: moments needs at least 2 points; there is 1");
     PointSet far = make("random", {10, 1});
     far.domain = box_domain({{-1e200}, {1e200}});
-    far[3][0] = 1e150;
+    far[3][0] = 1e160;
     EXPECT_EQ(error_of([&] { analyze("moments", far); }),
-              "limit: the sixth powers of coordinates are beyond the largest double");
+              "limit: variances of coordinates are beyond the largest double");
+    for (std::size_t i = 0; i < 10; ++i) far[i][0] = std::ldexp(1 + static_cast<double>(i), -540);
+    EXPECT_EQ(error_of([&] { analyze("moments", far); }),
+              "limit: variances of coordinates are below the smallest normal double");
+}
+
+// On the unit cube both are of the same numbers, of which a cluster keeps digits only about its mean.
+TEST(Moments, OfAClusterAreTheSameOnTheCube) {
+    for (const double width : {0.5, 1e-3, 1e-6, 1e-12}) {
+        PointSet cluster = make("random", points(1000, 2));
+        for (double& x : cluster.flat()) x = 0.2 + width * x;
+        const Report report = analyze("moments", cluster);
+        for (const std::string name : {"variance", "skewness"}) {
+            const double x = at(report, name.c_str(), 0);
+            EXPECT_NEAR(at(report, ("cube." + name).c_str(), 0), x, 1e-9 * std::abs(x)) << width;
+        }
+    }
+}
+
+// Sixth powers of such coordinates are no doubles, but their moments are.
+TEST(Moments, ScaleWithTheCoordinates) {
+    const Box wide{{-1e300, -1e300}, {1e300, 1e300}};
+    PointSet plain = make("halton", points(1000, 2));
+    plain.domain = box_domain(wide);
+    const Report at_one = analyze("moments", plain);
+    for (const int exponent : {-500, -300, -130, 130, 300, 500}) {
+        PointSet scaled = plain;
+        for (double& x : scaled.flat()) x = std::ldexp(x, exponent);
+        const Report report = analyze("moments", scaled);
+        for (const std::string kind : {"", "standard_error."})
+            for (const auto& [name, power, count] : {std::tuple{"mean", 1, 2U},
+                                                     {"variance", 2, 2U},
+                                                     {"skewness", 0, 2U},
+                                                     {"covariance", 2, 4U}})
+                for (std::size_t i = 0; i < count; ++i) {
+                    const double found = at(report, (kind + name).c_str(), i);
+                    const double expected = at(at_one, (kind + name).c_str(), i);
+                    EXPECT_NEAR(std::ldexp(found, -power * exponent), expected,
+                                1e-12 * std::abs(expected))
+                        << kind << name << " " << exponent;
+                }
+    }
 }
 
 // Equal points have no variance, but a finite distance from the expected moments: (1/2 - 0.25)
