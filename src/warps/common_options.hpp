@@ -25,9 +25,8 @@ void refuse_far(double x, double reach);
 std::vector<double> one_for_each(const Param<Numbers>& option, std::vector<double> numbers,
                                  std::size_t d);
 
-/// Checks that weights are >= 0 and sum to 1 within 1e-12; if `normalize`, accepts any sum. Returns
-/// the weights divided by their sum.
-/// @throws Error(usage)
+/// Weights divided by their sum. @throws Error(usage) if a weight is below 0 or, without
+/// `normalize`, if the sum differs from 1 by more than 1e-12
 std::vector<double> checked_weights(const Param<Numbers>& option, std::vector<double> weights,
                                     bool normalize);
 

@@ -52,16 +52,14 @@ class LineDistribution {
     /// Moments; NaN or infinite if a moment does not exist or is unknown.
     [[nodiscard]] virtual LineMoments moments() const = 0;
 
-    /// Whether inverse() is the distribution function, so that the probability of an interval of
-    /// the cube is its length.
+    /// Whether inverse() is the distribution function: probabilities are lengths in the cube.
     [[nodiscard]] virtual bool even() const { return true; }
 
     /// Whether the distribution is discrete. cube_coordinate() is then in the middle of a cell
     /// whose length is the outcome's probability.
     [[nodiscard]] virtual bool has_outcomes() const { return false; }
 
-    /// Cube coordinate of x, and the probability between two cube coordinates; overridden if not
-    /// even().
+    /// Cube coordinate of x, and probability between cube coordinates; overridden if not even().
     [[nodiscard]] virtual double cube_coordinate(double x) const { return inverse(x); }
     [[nodiscard]] virtual Estimate probability(double low, double high) const {
         return {high - low, 0};

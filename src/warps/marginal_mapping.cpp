@@ -53,8 +53,8 @@ class MarginalLine final : public LineDistribution {
             high = high == 0 ? -least_number : std::nextafter(high, -infinity);
     }
 
-    /// xi = 0 and 1 map to finite ends, unless the density is infinite there. Rounding of other xi
-    /// reaches an end only if the density is finite and above 0 there.
+    /// xi = 0 and 1 map to the ends of the support, if these and the density there are finite.
+    /// Rounding of other xi reaches an end only if its density is finite and above 0.
     void forward_all(std::span<double> numbers) const {
         if (discrete_) return law_->quantiles(numbers);
         std::array<double, 256> u;

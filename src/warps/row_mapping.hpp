@@ -45,7 +45,6 @@ concept DropsPoints = requires {
     &Method::keeps;
 };
 
-/// Row i of a table with d numbers per row.
 template <std::size_t d>
 std::array<double, d> row_of(std::span<const double> rows, std::size_t i) {
     std::array<double, d> row;
@@ -160,7 +159,6 @@ class RowMapping final : public Mapping {
     Method method_;
 };
 
-/// The mapping onto `domain` by `method`.
 template <class Known, class Method>
 std::unique_ptr<Mapping> row_mapping(const std::shared_ptr<Known>& domain, Method method) {
     return std::make_unique<RowMapping<Known, Method>>(domain, std::move(method));

@@ -44,8 +44,8 @@ class Mapping {
     /// Whether some points may have no image.
     [[nodiscard]] virtual bool drops() const { return false; }
 
-    /// Maps from each unit coordinate to its discrete outcomes. Empty if all coordinates are
-    /// continuous, or if outcomes depend on several of them.
+    /// For each unit coordinate, its discrete outcomes. Empty if all coordinates are continuous, or
+    /// if outcomes depend on several of them.
     [[nodiscard]] virtual std::vector<OutcomeAxis> outcome_axes() const { return {}; }
 
     /// Changes all points of a set in place: count x cube_dimension() numbers. @throws Error(input)
@@ -99,8 +99,7 @@ struct WarpRequest {
 
     /// Spec of the domain, with all options.
     [[nodiscard]] std::string spec() const;
-    /// Spec of the domain with only these options; the other options affect only how points are
-    /// made.
+    /// Spec of the domain, with only these options; others affect only how points are made.
     [[nodiscard]] std::string spec(std::initializer_list<std::string_view> which) const;
 };
 
@@ -119,15 +118,14 @@ struct Warp {
     std::string summary;
     std::string source;
     std::string family = {};  ///< family name, set by the registry from the folder
-    /// Search words such as its kind, parts or uses; not names of units (see layering_test.cpp).
+    /// Search words such as its kind or uses; not names of other analyzers, warps or generators.
     std::vector<std::string> related = {};
     std::string strata;  ///< images of the strata, and whether xi or 1 - xi is used
     WarpTraits traits = {};
     Schema options;
     std::vector<std::string> aliases = {};  ///< other names that users may type
 
-    /// Incremented when the images for the same options and seed change (see
-    /// tests/contract/golden.txt).
+    /// Incremented when the images for equal options and seed change (tests/contract/golden.txt).
     std::uint64_t stream_version = 1;
 
     std::function<std::unique_ptr<Mapping>(const WarpRequest&)> mapping;
@@ -146,8 +144,7 @@ struct Warp {
 
 namespace warps {
 
-/// Option of warps that other programs define with the angle first, or starting from another
-/// corner.
+/// Option of warps that other programs define with the angle first, or from another corner.
 inline constexpr Param<Numbers> orientation{
     {.name = "orientation",
      .help = "Order in which the unit coordinates are used, with a minus sign for 1 - xi: 2,1 "

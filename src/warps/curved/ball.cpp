@@ -52,8 +52,7 @@ class BallDomain final : public NamedDomain {
         return 4 * std::numbers::pi / 3 * r * r * r;
     }
 
-    /// Allows 8 epsilon (R + largest |c|) beyond the sphere, the rounding error of generated
-    /// points.
+    /// Allows 8 epsilon (R + largest |c|) beyond the sphere, for the rounding of generated points.
     bool contains(std::span<const double> point) const override {
         return length(sphere_.unit(point)) <= 1 + slack_;
     }

@@ -49,8 +49,7 @@ struct Cap {
     double rim_minus() const { return rim.cos > 0.5 ? 2 * half.sin * half.sin : 1 - rim.cos; }
     double rim_plus() const { return rim.cos < -0.5 ? 2 * half.cos * half.cos : 1 + rim.cos; }
 
-    /// Cube coordinates of a direction: fraction of the cap's solid angle nearer to the axis, and
-    /// longitude in turns.
+    /// Cube coordinates: fraction of the solid angle nearer to the axis, and longitude in turns.
     std::array<double, 2> shares(std::span<const double> point) const {
         const Vector3 v = frame.in(vector_of(point));
         const double least = one_minus_abs_cos(v);
@@ -69,9 +68,8 @@ class ConeDomain final : public NamedDomain {
 
     double measure() const override { return 2 * std::numbers::pi * cap_.rim_minus(); }
 
-    /// Allows 8 epsilon beyond the rim and in the length, the rounding error of generated
-    /// directions. A thin cone about z allows only 8 epsilon times the rim's distance from the axis
-    /// beyond the rim.
+    /// Allows 8 epsilon in the length and beyond the rim, for rounding. Thin cones about z allow
+    /// only 8 epsilon times the rim's distance from the axis beyond the rim.
     bool contains(std::span<const double> point) const override {
         const auto [x, y, z] = cap_.frame.in(vector_of(point));
         const double rr = x * x + y * y;

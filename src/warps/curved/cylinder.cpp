@@ -7,8 +7,8 @@
 //
 // in a frame about its axis z; with --caps onto its whole surface. Each cap has the fraction s = R
 // / (2 (R + H)) of the area. Points with xi0 < s are on the lower cap, R sqrt(xi0 / s) from the
-// axis; those with xi0 > 1 - s on the upper one, R sqrt((1 - xi0) / s) from it. The others are on
-// the side, at the height H ((xi0 - s) / (1 - 2 s) - 1/2).
+// axis; points with xi0 > 1 - s are on the upper cap, R sqrt((1 - xi0) / s) from the axis. Other
+// points are on the side, at the height H ((xi0 - s) / (1 - 2 s) - 1/2).
 //
 // Shape   2 unit coordinates, 3 coordinates.
 // Strata  xi0 increases from the lower end, with --caps from the centre of the lower cap to that of
@@ -90,8 +90,7 @@ class CylinderDomain final : public NamedDomain {
 
     double measure() const override { return shape_.area(); }
 
-    /// Allows a distance of 16 epsilon (R + H + largest |c|), the rounding error of generated
-    /// points.
+    /// Allows a distance of 16 epsilon (R + H + largest |c|), for the rounding of generated points.
     bool contains(std::span<const double> point) const override {
         const auto [distance, z, turns] = shape_.polar(point);
         const double slack = shape_.slack();

@@ -61,7 +61,7 @@ constexpr Param<Choice> attributes{
 
 using Pair = std::array<double, 2>;
 
-// Columns of a point, by --attributes.
+// Numbers of columns of a point, by --attributes.
 constexpr std::size_t with_normal = 6;
 constexpr std::size_t with_barycentrics = 7;
 
@@ -184,9 +184,9 @@ class MeshDomain final : public NamedDomain {
         std::optional<Pair> best;
         double least = std::numeric_limits<double>::infinity();
         std::uint32_t first = 0;
-        // coinciding triangles with the point inside
+        // Triangles with the point inside: more than one if triangles coincide.
         std::vector<std::pair<std::uint32_t, Pair>> around;
-        // Chooses, among adjacent triangles, the one whose forward map is nearest to the point.
+        // Among adjacent triangles, chooses the one whose inverse maps back nearest to the point.
         tree_.visit(at, reach, [&](std::uint32_t i, const Foot& foot) {
             if (dimension() == with_normal &&
                 !(largest(minus(normal(i), vector_of(point.subspan(3)))) <= 1e-12))
@@ -209,15 +209,13 @@ class MeshDomain final : public NamedDomain {
     }
 
   private:
-    /// Selects one of several coinciding triangles by a hash of the point, so that each gets its
-    /// fraction of the points.
+    /// Selects one of several coinciding triangles by a hash of the point, all equally often.
     static Pair one_of(std::vector<std::pair<std::uint32_t, Pair>>& around, const Vector3& at) {
         std::ranges::sort(around, {}, &std::pair<std::uint32_t, Pair>::first);
         return around[Rng(digits_of(at, 0), 1).below(0, around.size())].second;
     }
 
-    /// Rows of point columns at the triangle's corners. Rows of its other points are linear
-    /// interpolations of these.
+    /// Columns of the points at the triangle's corners; other points interpolate them linearly.
     std::array<std::vector<double>, 3> rows_at_corners(std::size_t i) const {
         const auto corners = mesh_.corners(i);
         const auto& [a, b, c] = corners;

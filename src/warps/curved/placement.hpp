@@ -25,12 +25,10 @@ constexpr Param<Numbers> axis_option{
 /// that rounding destroys a shape of size `reach`
 Vector3 center_of(const Values& options, double reach);
 
-/// Returns a frame whose z axis is --axis. @throws Error(usage) if this is not three numbers, or
-/// 0,0,0
+/// Frame with the z axis --axis. @throws Error(usage) unless this is three numbers, not all 0
 Frame frame_of(const Values& options);
 
-/// Converts an option's three numbers to a vector. @throws Error(usage) for another count of
-/// numbers
+/// Vector of an option's three numbers. @throws Error(usage) for another count of numbers
 Vector3 vector_of(const Param<Numbers>& option, const std::vector<double>& numbers);
 
 /// Bounding box of all points within the distance `beyond` of a cylinder with centre `middle`, axis
@@ -38,7 +36,6 @@ Vector3 vector_of(const Param<Numbers>& option, const std::vector<double>& numbe
 Box box_about(const Vector3& middle, const Vector3& direction, double beyond, double along,
               double across);
 
-/// Sphere or ball.
 struct Sphere {
     double radius;
     Vector3 center;
@@ -56,8 +53,7 @@ struct Sphere {
 
     [[nodiscard]] Box bounding_box() const { return box_about(center, {}, radius, 0, 0); }
 
-    /// Rounding error of a point's position, relative to the radius: 8 epsilon (R + largest |c|) /
-    /// R.
+    /// Rounding error of a position, relative to the radius: 8 epsilon (1 + largest |c| / R).
     [[nodiscard]] double rounding() const;
 };
 

@@ -75,7 +75,7 @@ double SphericalDomain::edge_top(std::size_t i, const Vector3& up) const {
 }
 
 std::array<double, 3> SphericalDomain::axial(const Vector3& w) const {
-    // Sums over the edges, of w . n times the integrals of (w . v)^0, ^1, ^2 along the edge.
+    // Sums over the edges of w . n times the integrals of (w . v)^0, ^1, ^2 along the edge.
     std::array<double, 3> along{};
     for (std::size_t i = 0; i < corners_.size(); ++i) {
         const Vector3& from = corners_[i];
@@ -83,7 +83,7 @@ std::array<double, 3> SphericalDomain::axial(const Vector3& w) const {
         const double sine = length(cross(from, to));
         const double cosine = dot(from, to);
         const double angle = signed_angle(sine, cosine);
-        // Along w the edge is a cos(s) + b sin(s), for s from 0 to the angle.
+        // On the edge w . v = a cos(s) + b sin(s), for s from 0 to the angle.
         const double a = dot(w, from);
         const double b = (dot(w, to) - cosine * a) / sine;
         const double bend = 0.5 * sine * cosine;

@@ -48,8 +48,7 @@ class SphericalDomain final : public NamedDomain {
     /// @param inward unit normals of the planes of the edges after each corner; empty: computed
     /// from the corners, whose neighbours must not be antipodal
     /// @param cells the inverse that defines the cells
-    /// @param slack tolerance for rounding: beyond the edges' planes, and in the length of a
-    /// direction
+    /// @param slack tolerance for rounding: distance beyond an edge's plane, and error of a length
     SphericalDomain(std::string spec, std::vector<Vector3> corners, std::vector<Vector3> inward,
                     Cells cells, double area, double slack, std::vector<std::string> axes);
 
@@ -65,8 +64,7 @@ class SphericalDomain final : public NamedDomain {
     /// The great circles of the edges.
     std::optional<SphereShape> sphere_shape() const override;
 
-    /// Accurate to a relative 1e-8; nullopt for areas below 1e-3, where differences lose too many
-    /// digits.
+    /// Relative error up to 1e-8; nullopt for areas below 1e-3, where differences lose more digits.
     std::optional<Moments> moments() const override;
     std::vector<std::string> cube_axes() const override { return axes_; }
 

@@ -72,8 +72,7 @@ struct Rectangle {
         return {towards(x0, y0), towards(x1, y0), towards(x1, y1), towards(x0, y1)};
     }
 
-    /// Inward unit normals of the planes through the origin and the edges. Edge i starts at corner
-    /// i of corners().
+    /// Inward unit normals of the planes through the origin and the edge after each of corners().
     std::vector<Vector3> inward() const {
         const auto normal = [this](double x, double y, double height) {
             return normalized(frame.out({x, y, height}));
@@ -81,7 +80,6 @@ struct Rectangle {
         return {normal(0, z, -y0), normal(-z, 0, x1), normal(0, -z, y1), normal(z, 0, -x0)};
     }
 
-    /// Exchanges x and y.
     Rectangle transposed() const { return {{frame.y, frame.x, frame.z}, y0, y1, x0, x1, z}; }
 };
 
@@ -171,23 +169,20 @@ class Urena {
         const double g0 = x > 0 ? r0 + x : w0_ * w0_ / (r0 - x);
         const double g1 = x > 0 ? r1 + x : w1_ * w1_ / (r1 - x);
         if (m >= 0) return turns_of(w0_ * w0_ * (w1_ * w1_) + g0 * g1 * m, g0 * g1 * n);
-        // For m < 0, w0 w1 + m would lose digits. It equals n^2 / (w0 w1 - m), since (w0 w1)^2 =
-        // m^2 + n^2.
+        // For m < 0, w0 w1 + m loses digits; it is n^2 / (w0 w1 - m), as (w0 w1)^2 = m^2 + n^2.
         const double more0 = x * (g0 + w0_) / (r0 + w0_);  // g0 - w0
         const double more1 = x * (g1 + w1_) / (r1 + w1_);
         const double sum = (more0 * g1 + w0_ * more1) + n * n / (w0_ * w1_ - m);
         return turns_of(m * sum + n * n, g0 * g1 * n);
     }
 
-    /// Computes H from G, or G from H: their sum is pi - low - high. Used for angles above pi / 2.
-    /// Near pi, where the foot of the perpendicular from o is almost in the rectangle, the sines of
-    /// such angles have lost digits.
+    /// H from G, or G from H, whose sum is pi - low - high. Replaces an angle above pi / 2, since
+    /// its sine loses digits near pi, where o is almost above the rectangle.
     CosSin rest_of(const CosSin& p) const {
         return {p.sin * both_.sin - p.cos * both_.cos, p.sin * both_.cos + p.cos * both_.sin};
     }
 
-    /// sin(p + low) = sin(q + high), since the four angles sum to pi; computed in the form that
-    /// loses no digits.
+    /// sin(p + low) = sin(q + high), since the angles sum to pi, by the form that loses no digits.
     static double sine_of_sum(const CosSin& p, const CosSin& q, const CosSin& low,
                               const CosSin& high) {
         const double first = p.sin * low.cos + p.cos * low.sin;
@@ -201,7 +196,7 @@ class Urena {
         double above;
     };
 
-    /// Gaps for the elevation of the plane's point with this y and x = z tan(phi).
+    /// Gaps for the elevation of the point (z tan(phi), y) of the rectangle's plane.
     Gaps gaps(double y, double cos_phi) const {
         const double up = y * cos_phi;
         const double size = std::sqrt(up * up + seen_.z * seen_.z);
@@ -222,11 +217,10 @@ class Urena {
     double w1_ = 0;
     CosSin low_{};   ///< cosine and sine of pi - kappa0
     CosSin high_{};  ///< cosine and sine of kappa1
-    CosSin both_{};  ///< cosine and sine of the sum of both angles
+    CosSin both_{};  ///< cosine and sine of pi - kappa0 + kappa1
 };
 
-/// @throws Error(usage) unless ex and ey, given by their lengths and the cosine between them, are
-/// the edges of a rectangle
+/// @throws Error(usage) unless edges of these lengths and cosine of their angle form a rectangle
 void check_edges(const Table& table, double size_x, double size_y, double cosine) {
     if (!(size_x > 0 && size_y > 0))
         fail(ErrorKind::usage, "--edges: {} has an edge of length 0", format_value(table));

@@ -86,7 +86,7 @@ class Arvo {
         const Vector3& whole = share < 1 ? arc : bc_;
         const double part = dot(way, way) / dot(whole, whole);
         if (part < 1) return {share, part};
-        // The direction is on the edge ac and thus c' itself. Does not use the plane, which is
+        // The direction is on the edge ac and thus c' itself. The plane is not used, since it is
         // ill-conditioned if a is next to b.
         const Vector3 off = minus(vector_of(point), a_);
         return {at(dot(vector_of(point), a_), std::max(0.0, dot(off, to_c_))).share, 1};
@@ -144,8 +144,7 @@ double from_opposite(const Vector3& corner, const Vector3& p, const Vector3& q) 
     return beside ? std::abs(height) : std::min(length(plus(p, corner)), length(plus(q, corner)));
 }
 
-/// Tolerance: 16 epsilon; for near-hemispheres divided by the distance of a corner's antipode from
-/// the opposite edge.
+/// Tolerance: 16 epsilon, divided by the smallest of 1 and the distances from_opposite().
 double slack_of(const Corners& v) {
     return 16 * epsilon /
            std::min({1.0, from_opposite(v[0], v[1], v[2]), from_opposite(v[1], v[2], v[0]),

@@ -53,7 +53,7 @@ constexpr auto minor_radius =
 /// E - sin E for E in [0, pi], without loss of digits.
 inline double less_sine(double angle, double sine) {
     const double z = angle * angle;
-    // 1/15!, then 1/13!, ...
+    // -1/15!, 1/13!, -1/11!, ...
     const double sum = horner(z, -1 / 1307674368000.0, 1 / 6227020800.0, -1 / 39916800.0,
                               1 / 362880.0, -1 / 5040.0, 1 / 120.0, -1 / 6.0);
     const double series = 0 - angle * z * sum;
@@ -112,8 +112,7 @@ struct Torus {
         return std::min((2 * r * w + mean * below) / (below * d), pi);
     }
 
-    /// Cosine and sine of E / 2, given the mean anomaly M in [0, pi]. @param angle initial value of
-    /// E
+    /// Cosine and sine of E / 2 for the mean anomaly M in [0, pi]. @param angle approximates E
     CosSin half_angle(double mean, double angle) const {
         const double e = minor / major;
         const double lacks = (major - minor) / major;
@@ -132,8 +131,7 @@ struct Torus {
         const double rest = near * (b - near * (sines * (1 / 24.0) + near * cosines * (1 / 120.0)));
         const double miss = near * (1 + near * (a + rest)) - wanted;
         const double step = near - miss * (1 - 2 * a * near);
-        // Advances E / 2 by half the step. Short power series suffice, since the step is below
-        // 1e-3.
+        // Advances E / 2 by half the step, which is below 1e-3: short power series suffice.
         const double h = 0.5 * step;
         const double hh = h * h;
         const double sine_h = h * (1 - hh * (1 / 6.0) * (1 - hh * (1 / 20.0)));
@@ -157,8 +155,7 @@ class TorusDomain final : public NamedDomain {
 
     double measure() const override { return two_pi * torus_.major * (two_pi * torus_.minor); }
 
-    /// Allows a distance of 16 epsilon (R + r + largest |c|), the rounding error of generated
-    /// points.
+    /// Allows a distance of 16 epsilon (R + r + largest |c|), for the rounding of generated points.
     bool contains(std::span<const double> point) const override {
         return std::abs(torus_.section(point).tube - torus_.minor) <= torus_.slack();
     }

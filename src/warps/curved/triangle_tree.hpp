@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Finds the triangles of a mesh that a point lies on, with Boost's R-tree of their bounding boxes.
+// Finds the triangles of a mesh near a point, with Boost's R-tree of their bounding boxes.
 //
 // Shape   any number of triangles, also degenerate ones.
 // Cost    O(n log n) to build; O(log n) per point if the mesh's triangles are well spread.

@@ -47,8 +47,8 @@ class Fisher {
 
     explicit Fisher(double kappa) : kappa_(std::max(kappa, 1e-17)) {
         constexpr double most = 55 * 0.6931471805599453;  // -log 2^-55
-        // Below 1e-17 the density is uniform to the last bit. Above 20, 1 + cos keeps its digits as
-        // the complement of 1 - cos, since no xi below 1 reaches the vicinity of the far pole.
+        // For kappa < 1e-17 the density is uniform to the last bit. For kappa > 20 no xi below 1
+        // comes near the far pole, so that 2 - (1 - cos) keeps the digits of 1 + cos.
         const bool both = kappa_ <= 20;
         near_factor_ = exp_minus_1(-2 * kappa_);
         if (both) far_factor_ = exp_minus_1(2 * kappa_);
@@ -105,7 +105,7 @@ class Fisher {
     double near_factor_ = -1;  ///< expm1(-2 kappa)
     double far_factor_ = 0;    ///< expm1(2 kappa); 0 if kappa > 20
     double turn_ = 0.5;  ///< xi0 at 90 degrees; 2 if the formula for larger angles is not used
-    double last_ = 2;    ///< 1 - cos theta at xi0 = 1
+    double last_ = 2;    ///< at xi0 = 1: 1 - cos theta if kappa > 20, else 1 + cos theta
 };
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {

@@ -25,7 +25,7 @@ Effort effort_for(std::size_t dimension) {
 Effort effort_in_cell(std::size_t dimension, double share) {
     if (dimension <= 1) return {1e-10, 200};
     if (dimension == 3) return {1e-4, 5};
-    // The first division of the box's whole extent samples about 512 values: 17 per interval.
+    // The box's whole extent is first divided into 53 intervals of 17 values each.
     const auto first = 2 * static_cast<std::size_t>(26 * std::clamp(share, 0.0, 1.0)) + 1;
     return {1e-6, 80, std::max<std::size_t>(first, 3)};
 }

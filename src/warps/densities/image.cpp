@@ -17,9 +17,9 @@
 // Cost    O(1) a point: 70 ns at 4096 x 4096, limited by memory access; 18 bytes a pixel. Bilinear:
 //         O(log W), 0.9 us there; 130 bytes a pixel.
 // Promise no point where the picture is 0. Forward, inverse and forward again give the same point
-//         within 1e-15 / p; inverse and forward give xi within 4e-16 times the number of pixels
-//         along a side. Bilinear: the same point within 1e-14, but 1e-7 next to places where the
-//         density falls to 0, which a point may hit if xi is 0.
+//         within 1e-15 / p; forward and inverse give the same xi within 4e-16 times the number of
+//         pixels along a side. Bilinear: the same point within 1e-14, but 1e-7 next to places where
+//         the density falls to 0, which a point may hit if xi is 0.
 // Source  Marginal and conditional: P. Shirley, C. Wang, K. Zimmerman, "Monte Carlo techniques for
 //         direct lighting calculations", ACM Trans. Graph. 15(1) (1996) 1-36,
 //         doi:10.1145/226150.226151. Guide tables: H.-C. Chen, Y. Asau, AIIE Trans. 6(2) (1974)

@@ -79,8 +79,7 @@ struct Component {
 /// at the component's rim (math/geometry/zone_integral.hpp).
 class MixtureDomain final : public NamedDomain {
   public:
-    /// @param parts components that all give directions, or all fill the same number of dimensions;
-    /// their weights sum to 1
+    /// @param parts all give directions or all fill the same number of dimensions; weights sum to 1
     MixtureDomain(const std::vector<Component>& parts, std::string spec)
         : NamedDomain(std::move(spec), parts[0].mapping->domain()->dimension(),
                       parts[0].mapping->domain()->cube_dimension()) {
@@ -212,8 +211,7 @@ class MixtureDomain final : public NamedDomain {
         return sum;
     }
 
-    /// Probability of a zone of directions; components without a sphere_shape() have these zones as
-    /// cells.
+    /// Probability of a zone of directions; domains without a sphere_shape() have zones as cells.
     static Estimate zone_mass(const Domain& part, const Box& cell) {
         const auto shape = part.sphere_shape();
         if (!shape) return part.probability(cell);

@@ -15,8 +15,8 @@
 // where the second form is used if r > 1/2, and has k = -1 as its limit.
 //
 // Shape   any number of coordinates, all with the same distribution. An interval with negative
-//         numbers requires an even k. One that contains 0 requires k > -1, and one that ends at 0 k
-//         above about -0.954, so that at most 1e-14 of the mass is below the smallest double.
+//         numbers requires an even k. An interval that contains 0 requires k > -1; if it ends at 0,
+//         k above about -0.954, so that at most 1e-14 of the mass is below the smallest double.
 // Strata  xi is used directly, not as 1 - xi: xi = 0 is a, and strata become intervals of equal
 //         probability in the same order.
 // Cost    O(1) a coordinate; on one core about 1 ns for k = 1, 4 for k = 2, 5 for others.

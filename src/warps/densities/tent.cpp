@@ -47,7 +47,7 @@ struct Tent final : LineDistribution {
 
     double r;
     double c;
-    /// Bound of |x - c| / r, so that rounding near c does not leave the box.
+    /// Largest |x - c| / r for xi in (0, 1): rounding of x then stays inside the box.
     double most = 1 - 2 * epsilon * (1 + std::abs(c) / r);
 
     /// Only u = 0 and 1 map to the rim, where the density is 0.

@@ -3,7 +3,7 @@
 // Unit cube onto the whole line, each coordinate independently, by inversion:
 //
 //     x = location - scale log(-log xi),    P(X <= x) = exp(-exp(-(x - location) / scale)),
-//     the limit distribution of the maximum of many
+//     the limit distribution of the maximum of many independent numbers
 //
 // Shape   any number of coordinates; each parameter is one number for all of them, or one for each.
 // Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability, in

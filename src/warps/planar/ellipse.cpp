@@ -57,8 +57,7 @@ struct Ellipse {
         return a * b * area_in_disk(window, {0, 0}, 1);
     }
 
-    /// To first order, the distance is the excess of x^2/a^2 + y^2/b^2 over 1, divided by its
-    /// gradient.
+    /// Distance to first order: the excess of x^2/a^2 + y^2/b^2 over 1, divided by its gradient.
     double beyond(double x, double y) const {
         const double p = x / a;
         const double q = y / b;
@@ -67,8 +66,7 @@ struct Ellipse {
         return excess > 0 ? excess / slope : excess;
     }
 
-    /// The extreme points in the directions of the coordinate axes, which bound the rotated
-    /// ellipse.
+    /// Extreme points along the coordinate axes, which bound the rotated ellipse.
     std::vector<PlanePoint> hull(double turn) const {
         std::vector<PlanePoint> points;
         const auto [c, s] = cos_sin_turns(turn);

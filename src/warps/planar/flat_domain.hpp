@@ -18,8 +18,7 @@ namespace stipple::warps {
 class FlatDomain : public NamedDomain {
   public:
     /// @param corners 3 or 4 in order, with 2 or 3 coordinates
-    /// @param frame of the edges from the first corner to the second and to the last; not
-    /// degenerate
+    /// @param frame of the edges from the first corner to the second and last; not degenerate
     FlatDomain(std::string spec, const Table& corners, const EdgeFrame& frame)
         : NamedDomain(std::move(spec), corners[0].size(), 2), corners_(corners), frame_(frame) {
         const auto [e, f, across] = frame_.lengths();

@@ -53,8 +53,7 @@ constexpr Param<double> rotation_option(std::string_view help) {
 inline constexpr double lost_in_rounding = 64 * std::numeric_limits<double>::epsilon();
 
 /// Places a shape of size R at `center`, rotated by `degrees`. @throws Error(usage) if rounding
-/// would lose `finest`, the shape's smallest length; the message calls it `what`, for example "a
-/// radius"
+/// would lose `finest`, the shape's smallest length, called `what` in the message ("a radius")
 Placement place(const std::vector<double>& center, double size, double degrees, double finest,
                 std::string_view what);
 

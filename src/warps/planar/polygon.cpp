@@ -2,7 +2,7 @@
 //
 // Unit square onto a polygon of any shape, with any number of holes and parts. Its boundary is a
 // set of rings of straight edges; a point is inside if an odd number of rings surround it. xi0 is
-// the fraction of the area below a row, xi1 the fraction of the row's inner part to the left:
+// the fraction of the area below a row, xi1 the fraction of the row's length inside to the left:
 //
 //     xi0 = A(y) / A,    xi1 = L(x, y) / L(y)
 //
@@ -141,8 +141,7 @@ bool is_flat(const Ring& ring) {
     return std::ranges::all_of(ring, [&](PlanePoint p) { return turn(ring[1], p) == 0; });
 }
 
-/// Edges of the options' rings. Checks that they bound a polygon, but not that its area is above 0.
-/// @throws Error
+/// Edges of the rings. @throws Error unless they bound a polygon; its area may still be 0
 std::vector<RingSegment> edges_of(const Values& options, const Source& source,
                                   const RunContext& run) {
     auto rings = options.given(file) ? read_rings(options[file], source, run)

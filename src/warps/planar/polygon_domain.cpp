@@ -31,8 +31,7 @@ struct Trapezoid {
     std::size_t top;
 };
 
-/// Sweeps a horizontal row upwards: keeps the edges that the row meets, and collects the trapezoids
-/// between them.
+/// Sweeps a horizontal row upwards: keeps the edges that it meets, collects the trapezoids between.
 class TrapezoidSweep {
   public:
     TrapezoidSweep(std::span<const UpwardEdge> edges, std::span<const double> heights)
@@ -220,7 +219,7 @@ void PolygonDomain::cut_bands(const RunContext& run) {
         return a.node != b.node ? a.node < b.node : sum(a.part) < sum(b.part);
     });
 
-    std::vector<std::size_t> lowest(2 * leaves, none);  // lowest band at each node or above it
+    std::vector<std::size_t> lowest(2 * leaves, none);  // lowest band at each node or an ancestor
     auto piece = pieces.begin();
     for (std::size_t node = 1; node < 2 * leaves; ++node) {
         lowest[node] = lowest[node / 2];
@@ -289,8 +288,7 @@ std::optional<Moments> PolygonDomain::moments() const {
             const std::vector<double> low = {part.left_bottom, band.bottom};
             const std::vector<double> high = {part.right_top, band.top};
             const double height = band.top - band.bottom;
-            // Weights are the widths of the parallel sides, since both triangles have the same
-            // height.
+            // Weights are twice the areas of the two triangles.
             all.add((part.right_bottom - part.left_bottom) * height,
                     triangle_moments({low, {part.right_bottom, band.bottom}, high}));
             all.add((part.right_top - part.left_top) * height,
@@ -439,8 +437,7 @@ double PolygonDomain::gap(const Slab& slab, PlanePoint p) const {
     return nearest_part(row_at(slab, std::clamp(p.y, slab.bottom, slab.top)), p.x).gap;
 }
 
-/// The slab that contains the point; also tests neighbours, if slabs meet or are thinner than
-/// rounding.
+/// The slab with the smallest gap() from the point, among those at its height up to slack_.
 const PolygonDomain::Slab& PolygonDomain::slab_around(PlanePoint p) const {
     const auto above = std::ranges::upper_bound(slabs_, p.y, {}, &Slab::bottom);
     const auto home = above == slabs_.begin() ? above : above - 1;

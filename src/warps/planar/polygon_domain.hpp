@@ -15,8 +15,8 @@
 // and likewise from above in the upper half of the area, so that no digits are lost towards a tip.
 //
 // The region is divided into trapezoids, each between two edges and from the height of one vertex
-// to that of another. Trapezoids are stored in a segment tree over the slabs: in the nodes that
-// cover their height, so that the path from a slab to the root has all those that a row meets.
+// to that of another. They are stored in a segment tree over the slabs, in the nodes that cover
+// their height: the path from a slab to the root has all trapezoids that a row in the slab meets.
 //
 // Shape   any number of rings, any orientation. Coordinates within [-1e150, 1e150].
 // Cost    O(n log n) time and memory. Per point on average O(1) for the slab; O(1) for the position
@@ -85,8 +85,7 @@ class PolygonDomain final : public NamedDomain {
         double before(double t) const { return before_bottom + t * (before_top - before_bottom); }
         double through(double t) const { return before(t) + (right(t) - left(t)); }
     };
-    /// A node of the tree: consecutive slabs, and the parts that span them from bottom to top,
-    /// ordered from left to right.
+    /// A node of the tree: consecutive slabs, and the parts that span all of them, left to right.
     struct Band {
         double bottom;
         double top;

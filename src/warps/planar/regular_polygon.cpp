@@ -14,7 +14,7 @@
 // Strata  xi0 and xi1 are used directly, not as 1 - xi: small xi0 is near the centre, xi1 goes
 //         around from V_0 towards the y axis. Strata become trapezoids between two rays from the
 //         centre, bent where they contain a vertex.
-// Cost    O(1) a point; about 4 ns forward, 60 ns inverse on one core; 16 n bytes.
+// Cost    O(1) a point; about 4 ns forward, 60 ns inverse on one core; 32 n bytes.
 // Promise density 1 / (n/2 R^2 sin(2 pi / n)). Points lie in the closed polygon up to 16 epsilon (R
 //         + |cx| + |cy|). A round trip returns the same point within 1e-14 of |c| + R; for c = 0
 //         also the same xi within 1e-14, except that the centre returns xi1 = 0. The same bits on

@@ -24,8 +24,7 @@ struct RingSector {
     double spread = 1;  ///< 1 - q^2, stored separately to be accurate for thin rings
     double width = 1;   ///< w, in (0, 1] turns
 
-    /// Makes a sector from the options --inner and --radius, and an angle in turns. @throws
-    /// Error(usage)
+    /// Sector for the options --inner and --radius and an angle in turns. @throws Error(usage)
     static RingSector between(double inner, double outer, double width);
 
     [[nodiscard]] PlanePoint forward(double u, double v) const {

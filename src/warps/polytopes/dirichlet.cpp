@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Unit cube onto numbers x_1 ... x_k > 0 that sum to 1, with Dirichlet's distribution for
-// parameters alpha_i, by stick breaking. With r_i = 1 - x_1 - ... - x_i-1, what remains after the
-// preceding numbers,
+// parameters alpha_i, by stick breaking. With the remainder r_i = 1 - x_1 - ... - x_i-1,
 //
 //     x_i = r_i y_i,    y_i of the beta distribution with alpha_i and alpha_i+1 + ... + alpha_k,
 //

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Unit cube onto the simplex of all points x >= 0 with x_1 + ... + x_d <= s, uniformly, by
-// Rosenblatt's transformation. With r_k = s - x_1 - ... - x_k-1, what remains after the preceding
-// coordinates,
+// Rosenblatt's transformation. With the remainder r_k = s - x_1 - ... - x_k-1,
 //
 //     x_k = r_k (1 - (1 - xi_k)^(1 / m)),    xi_k = 1 - (1 - x_k / r_k)^m,    m = d - k + 1.
 //
