@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Records of analyzers, with their functions from points to a report.
+// Analyzers: their options, results and functions that make a report from points.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,7 @@ struct AnalyzerTraits {
     bool unit_cube = true;   ///< accepts only points of the closed unit cube
     bool boxed = false;      ///< accepts only points of the unit cube or of a box
     bool densities = false;  ///< uses the density at each point, if known
-    bool table = false;      ///< accepts rows of any numbers; missing ones are NaN
+    bool table = false;      ///< accepts rows of arbitrary numbers; missing values are NaN
 };
 
 /// Direction in which a result is better.
@@ -39,7 +39,7 @@ constexpr const char* word_of(Better better) {
     return better == Better::lower ? "lower" : better == Better::higher ? "higher" : "neither";
 }
 
-/// One result of a report, by its key.
+/// Description of one result of a report.
 struct ResultKey {
     std::string key;  ///< dotted; a part in capital letters is a placeholder for any name
     std::string help;
@@ -47,17 +47,15 @@ struct ResultKey {
     std::string_view words = {};  ///< possible values, separated by |; empty: numbers, or any text
     Better better = Better::neither;
     bool any_count = false;  ///< whether sets of different sizes can be compared
-    /// Each word with its sentence on a report page; {} is replaced by the test's values.
+    /// For each of `words` its sentence on a report page; {} is replaced by the test's values.
     std::vector<std::pair<std::string_view, std::string_view>> sentences = {};
 };
 
-/// Marks a result as better if lower.
 inline ResultKey lower(ResultKey result) {
     result.better = Better::lower;
     return result;
 }
 
-/// Marks a result as better if higher.
 inline ResultKey higher(ResultKey result) {
     result.better = Better::higher;
     return result;
@@ -99,7 +97,7 @@ class SharedAccumulator : public Accumulator {
     /// `first` in the set; `head` is the first batch of the whole set.
     virtual void begin_at(std::uint64_t first, std::span<const double> head) = 0;
 
-    /// Serialized state, to be merged by another accumulator. No points may follow.
+    /// Serialized state, to be merged by another accumulator. add() must not be called afterwards.
     virtual std::string state(const RunContext& run) = 0;
 
     /// Merges the state of the accumulator for the points directly after those of this object. The
@@ -121,8 +119,7 @@ struct Sharing {
     explicit operator bool() const { return grain || together; }
 };
 
-/// Points per call of Accumulator::add(). Depends only on the dimension, so that sums over batches
-/// are reproducible.
+/// Points per call of Accumulator::add(), the same in every run, so that sums are reproducible.
 constexpr std::size_t arrival_batch(std::size_t dimension) {
     constexpr std::size_t numbers = std::size_t{1} << 18;
     return dimension < numbers ? numbers / dimension : 1;
@@ -132,9 +129,9 @@ constexpr std::size_t arrival_batch(std::size_t dimension) {
 struct CurveKey {
     std::string_view key;
     std::string_view over;  ///< key of the list of its abscissas; empty: pairs of coordinates
-    /// Curve for independent points: a number, or the key of a list; empty: unknown.
+    /// Values for independent points: a number, or the key of a list; empty: unknown.
     std::string_view reference = {};
-    std::string_view title = {};  ///< title of its axis; empty: derived from the key
+    std::string_view title = {};  ///< title of the axis of ordinates; empty: derived from `key`
     /// Title of the axis of abscissas; empty: derived from `over`.
     std::string_view over_title = {};
     bool log = false;               ///< whether the axes are logarithmic
@@ -151,14 +148,14 @@ struct PageMeasure {
     std::vector<std::pair<std::string_view, std::string_view>> compared = {};
     /// Options with their values; for an empty value (max-work, prefixes) the page chooses one.
     std::vector<std::pair<std::string_view, std::string_view>> options = {};
-    /// First part of the keys of its results; empty: the analyzer's name.
+    /// First part of the keys of the measure's results; empty: the analyzer's name.
     std::string_view name = {};
 };
 
 /// Cost of comparing all pairs of points, which a report page limits by its --max-work.
 struct AllPairs {
     std::size_t above = 0;  ///< all pairs are compared in more dimensions than this; 0: never
-    double steps = 0;  ///< number of terms of n^2 d that take as long as one unit of --max-work
+    double steps = 0;       ///< the comparison takes n^2 d / steps units of --max-work
 };
 
 struct Analyzer {
@@ -166,7 +163,7 @@ struct Analyzer {
     std::string summary;
     std::string source;
     std::string family = {};  ///< family name such as "blue noise", set by the registry
-    /// Search words such as its kind, parts or uses; not names of units (see layering_test.cpp).
+    /// Search words such as its kind or uses; not names of other analyzers, warps or generators.
     std::vector<std::string> related = {};
     AnalyzerTraits traits;
     Schema options;
@@ -175,14 +172,13 @@ struct Analyzer {
     PagePart part = {};
     std::vector<PageMeasure> page = {};
     AllPairs pairs = {};
-    /// Values of `stipple plot --chart` that show results with default options, each with the title
-    /// of a grid in the plane, or with an empty title for a curve.
+    /// Values of `stipple plot --chart` that show results with default options. The second string
+    /// is the title if the result is a grid in the plane, and empty if it is a curve.
     std::vector<std::pair<std::string_view, std::string_view>> charts = {};
     /// Option that names the column of weights; empty: no such option.
     std::string_view strengths = {};
 
-    /// Analyzes one set, whose dimension and domain have been checked against the traits. Empty if
-    /// `accumulate` is set.
+    /// Analyzes a set whose domain and dimension fit the traits. Empty if `accumulate` is set.
     std::function<Report(const PointSet&, const Values&, const RunContext&)> analyze = {};
 
     /// Makes an accumulator for a set of any size, in constant memory if possible. The accumulator

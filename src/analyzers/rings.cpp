@@ -139,9 +139,9 @@ double effective_nyquist(const Grid& power, const Rings& rings, const RunContext
         within.push_back(within.back());
         within.back().add({rings.power[i] * cells, cells});
     }
-    // Starts at the outermost ring. The mean power up to any shell of a ring is at least the power
-    // inside the ring divided by the number of cells including the ring. This bound excludes most
-    // rings before their shells are computed.
+    // From the outermost ring inwards. The mean power up to any shell of a ring is at least the sum
+    // of powers inside the ring divided by the number of cells inside and in the ring. This bound
+    // excludes most rings before their shells are computed.
     const std::size_t last = rings.power.size();
     for (std::size_t ring = last; ring > 0; --ring) {
         if (!Shell{within[ring - 1].power, within[ring].cells}.is_low()) continue;

@@ -34,8 +34,7 @@ double anisotropy_db(double variance, double mean, double least = 0);
 /// is at most 0.1. @param rings those of `power`
 double effective_nyquist(const Grid& power, const Rings& rings, const RunContext& run);
 
-/// Oscillation of the radial power. Complete if the power reaches 0.98 and F cuts off no ring of
-/// the range.
+/// Oscillation of the radial power; complete if P_k reaches 0.98 and its range of rings ends by F.
 struct Oscillation {
     double value;
     bool complete;
@@ -44,8 +43,8 @@ Oscillation oscillation(const Rings& rings, double regular_nyquist);
 
 double total_variation(const Rings& rings);
 
-/// Slope of log power against log frequency; nullopt if fewer than 3 of the lowest rings have a
-/// power above `least`.
+/// Slope of log power against log frequency over the lowest rings with a power above `least`;
+/// nullopt for fewer than 3 of these rings.
 std::optional<double> low_frequency_exponent(const Rings& rings, double regular_nyquist,
                                              double least);
 

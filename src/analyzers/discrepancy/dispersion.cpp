@@ -42,8 +42,8 @@ constexpr Param<bool> torus{
 /// Limit beyond any machine's memory; it keeps sort keys of points below 2^31.
 constexpr std::size_t max_count = std::size_t{1} << 29;
 
-/// Largest empty box. If the search is cut short, the upper bound is that of the discrepancy over
-/// the same family of boxes, which is at least the volume of any empty box.
+/// Largest empty box. If the search in the plane is cut short, the upper bound is that of the
+/// discrepancy over the same family of boxes, which is at least the volume of any empty box.
 SearchResult largest_empty_box(const BoxGrid& grid, const PointSet& points,
                                const SearchLimits& limits, const RunContext& run) {
     if (grid.dimension() != 2) return extreme::find_worst(grid, limits, run);
@@ -77,7 +77,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return report_of(found, limits.search.tolerance, how(d)).add("box", std::move(box));
 }
 
-/// Boxes cannot be averaged.
+/// Removes the box, which cannot be averaged.
 void refine(Report& mean, std::size_t sets, const Values&) {
     if (sets > 1) drop(mean, {"box"});
 }

@@ -9,17 +9,17 @@
 //
 //     periodic   prod 1 + 2 pi^2 (1/6 - t + t^2), t = |x - y|: squared is the squared diaphony
 //     gaussian   exp(-|x - y|^2 / (2 h^2))
-//     matern     prod p(a) exp(-a), a = sqrt(2 nu) t / h: a product over the axes, no function of
-//                the distance; p = 1, 1 + a, 1 + a + a^2 / 3 for nu = 1/2, 3/2, 5/2
+//     matern     prod p(a) exp(-a), a = sqrt(2 nu) t / h: a product over the axes, which does not
+//                depend on |x - y| alone; p = 1, 1 + a, 1 + a + a^2 / 3 for nu = 1/2, 3/2, 5/2
 //     stein      the kernel Stein discrepancy, of the Langevin Stein kernel over the base kernel
 //                (1 + |x - y|^2 / h^2)^(-1/2) (math/kernels/stein.cpp); E K(x, y) = 0
 //
 // The target is one of
 //
 //     default     the distribution of the points' own domain. For the unit cube expectations have a
-//                 closed form. Other domains must have independent coordinates and take integrals
-//                 over their distribution functions (math/kernels/domain_kernel.cpp); for the
-//                 periodic kernel they must be boxes, whose torus is that of the cube
+//                 closed form. Other domains must have independent coordinates; expectations are
+//                 integrals over their distribution functions (math/kernels/domain_kernel.cpp). For
+//                 the periodic kernel they must be boxes, which are mapped to the cube
 //     --target    the points of a file
 //     stein       the density whose scores grad log p follow the coordinates in each row
 //
@@ -32,7 +32,7 @@
 //         few dimensions on one core. The periodic kernel in one or two dimensions: O(n log n) for
 //         n > 4096 (math/l2). Domains other than a cube: some 100 us more per point. O(n) memory.
 // Promise the same for any number of threads. Values of K are added as integers; `value` is off by
-//         at most `error`. 0 for the points of the target, in any order.
+//         at most `error`. It is 0 if the points are those of --target, in any order.
 // Beware  values for different kernels, or different h, cannot be compared.
 // Source  A. Gretton, K. M. Borgwardt, M. J. Rasch, B. Schoelkopf, A. Smola, J. Mach. Learn. Res.
 //         13 (2012) 723-773; J. Gorham, L. Mackey, ICML 2017, arXiv:1703.01717 (stein).

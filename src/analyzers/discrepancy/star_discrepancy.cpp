@@ -102,8 +102,7 @@ constexpr Param<std::int64_t> projections{
         "in the order 1-2, 1-3, 2-3, 1-4, 2-4, ...: sorted by the last axis, then by the preceding "
         "one"};
 
-/// Maximum number of points. Memory runs out for fewer points; the limit keeps counts of points
-/// within 32-bit integers.
+/// Limit beyond any machine's memory; counts of points fit 32-bit integers.
 constexpr std::size_t max_count = std::size_t{1} << 29;
 
 /// A set to measure, with its limits.
@@ -198,8 +197,7 @@ class Table {
     Columns columns;
 
   private:
-    /// Limits of the next set, if `together` sets are measured at a time, and whether it is the
-    /// first.
+    /// Limits of the next set if `together` are measured at a time, and whether it is the first.
     std::pair<Limits, bool> next_limits(double weight, double together) {
         const std::lock_guard lock(counting_);
         const bool first = left_ == weight_;
@@ -352,8 +350,7 @@ std::string axes_of(const Combination& along) {
                        join(axes, ", "));
 }
 
-/// In a table of projections, marks the row with the largest lower bound; the first one if several
-/// have it.
+/// In a table of projections, marks the first row with the largest lower bound.
 void mark_worst(Report& table) {
     const auto& lower = table.curve("lower");
     const auto worst = static_cast<std::size_t>(std::ranges::max_element(lower) - lower.begin());
@@ -432,7 +429,6 @@ Report families(const PointSet& points, const Values& options, const Limits& lim
     return results;
 }
 
-/// Result of a search, and its method.
 struct Found {
     SearchResult result;
     const char* method = "branch-and-bound";
@@ -457,7 +453,7 @@ Family family_of(const Values& options) {
     return options[kind] == "extreme" ? Family::cube : Family::torus;
 }
 
-/// Checks memory. @throws Error(limit) naming a number of points that fits
+/// @throws Error(limit) if memory does not suffice; the hint says how many points would fit
 void need_room(const PointSet& points, Family family, const RunContext& run) {
     const std::size_t d = points.dimension();
     if (family >= Family::cube)
@@ -476,10 +472,9 @@ void need_room(const PointSet& points, Family family, const RunContext& run) {
                    points.count(), d, format_bytes(all), format_bytes(room));
 }
 
-/// Finds the worst box in two dimensions. Returns only bounds if the sweep exceeds its share of the
-/// time limit.
+/// Worst box in two dimensions; only bounds if the sweep exceeds its part of the time limit.
 Found sweep_or_search(const BoxGrid& grid, const Limits& limits, const RunContext& run) {
-    constexpr double part = 0.7;  // of the time; the rest is for bounds
+    constexpr double part = 0.7;  // fraction of the time limit; the remaining time is for bounds
     SearchLimits first = limits.search;
     first.deadline = limits.start + part * (first.deadline - limits.start);
     const SearchResult sweep = star::sweep_2d(grid, first, run);
@@ -536,7 +531,7 @@ Report analyze_together(const PointSet& points, const Values& options, Peers& pe
                    options, run);
 }
 
-/// Boxes and axes cannot be averaged; the worst projection is found anew from the means.
+/// Removes boxes and axes, which cannot be averaged; finds the worst projection from the means.
 void refine(Report& mean, std::size_t sets, const Values&) {
     if (sets < 2) return;
     drop(mean, {"worst_box"});
@@ -629,7 +624,7 @@ Analyzer unit() {
                       "periodic-discrepancy"}},
             .analyze = analyze,
             .cost =
-                [](double n, double d) {  // fitted to searches of Halton, Sobol', random
+                [](double n, double d) {  // fitted to Halton, Sobol' and random points
                     if (d <= 2) return 3e-8 * std::pow(n, 1.33);
                     return std::min(100.0, 5e-8 * std::pow(n, d <= 8 ? 1 + d / 4 : 2.2 + d / 10));
                 },

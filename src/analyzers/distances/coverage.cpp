@@ -74,7 +74,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return results;
 }
 
-/// Positions cannot be averaged.
+/// Removes the ball's centre, which cannot be averaged.
 void refine(Report& mean, std::size_t sets, const Values&) {
     if (sets > 1) drop(mean, {"center"});
 }

@@ -6,9 +6,9 @@
 //     density(D) = #{ (i, j) : i != j, x_j - x_i in D }  /  ( n (n - 1) * P(D) ),
 //
 // where P(D) is the probability that the difference of two uniform points is in D: the area of D
-// over V on the torus, and less for straight differences, by the box's set covariance (L_1 - |x|)
-// (L_2 - |y|). So independent points have density 1 everywhere. The image complements the power
-// spectrum: near 0 it shows what the spectrum shows at high frequencies. The image is summarized by
+// over V on the torus; the integral over D of (L_1 - |x|) (L_2 - |y|) / V^2 for straight distances.
+// So independent points have density 1 everywhere. The image complements the power spectrum: near 0
+// it shows what the spectrum shows at high frequencies. The image is summarized by
 //
 //     radial density     mean over the pixels with centres in the ring k - 1/2 <= |x| / w < k + 1/2
 //     anisotropy         variance of the pixels over the ring / squared mean, in dB; independent
@@ -23,8 +23,8 @@
 //         pairs, take 2 s on one core.
 // Promise every pair counts twice, once on either side of 0: the image is its own mirror image
 //         exactly. Never depends on the number of threads.
-// Beware  a difference on the edge of pixels counts in one, so the peaks of a lattice are single
-//         pixels.
+// Beware  a difference on an edge of two pixels counts in only one of them, so each peak of a
+//         lattice is a single pixel.
 // Source  L.-Y. Wei, R. Wang, ACM Trans. Graph. 30:4 (2011) 50, doi:10.1145/2010324.1964945.
 
 #include <algorithm>
@@ -102,8 +102,7 @@ Plan plan_for(const PointSet& points, const Values& options) {
 /// Counts of differences in the pixels, row by row.
 using Counts = std::vector<std::uint64_t>;
 
-/// Largest number of blocks. Each block has its own counts; these take at most 1 GiB or, if that is
-/// more, 4 images.
+/// Largest number of blocks, each with an image of counts: 1 GiB in total, but between 4 and 64.
 std::uint64_t most_blocks(std::size_t pixels) {
     constexpr std::uint64_t most_counts = std::uint64_t{1} << 27;
     return std::clamp<std::uint64_t>(most_counts / (pixels * pixels), 4, 64);
@@ -120,8 +119,7 @@ class DifferenceCounter {
                                static_cast<double>(points.count()) + 64),
                   points.flat(), run) {}
 
-    /// Uses few blocks, since each needs its own counts. The order of blocks does not matter:
-    /// counts are integers.
+    /// Adds the counts of all blocks. Their order does not matter, since counts are integers.
     [[nodiscard]] Counts count() const {
         const std::uint64_t n = points_.count();
         const std::uint64_t size = std::max<std::uint64_t>(1024, n / most_blocks(plan_.pixels) + 1);
@@ -247,7 +245,7 @@ void refine(Report& mean, std::size_t, const Values&) {
         summarize(mean, std::get<Grid>(*grid), mean.number("pixel"));
 }
 
-/// Images with pixels of different sizes cannot be averaged.
+/// Rejects images with pixels of different sizes, which cannot be averaged.
 void combine(Report&, std::span<const Report> sets, const Values&) {
     if (!alike(sets, "pixel"))
         fail_with_hint(ErrorKind::usage, "set one --max-distance for all",

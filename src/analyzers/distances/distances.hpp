@@ -59,7 +59,6 @@ double shortest_side(const Box& box);
 /// Mean distance (V / n)^(1/d) of n points in the box.
 double mean_distance(const Box& box, std::size_t n);
 
-/// Whether all points coincide.
 bool all_equal(const PointSet& points);
 
 /// Requires at least two distinct points. @throws Error(input)
@@ -70,8 +69,7 @@ void require_places(const PointSet& points, const char* analyzer);
 std::vector<Neighbor> nearest_neighbors(const PointSet& points, const Distances& distances,
                                         const RunContext& run);
 
-/// Two points with the smallest distance; if several pairs have it, the one with the lowest
-/// indices.
+/// Two points with the smallest distance; of several such pairs, the one with the lowest indices.
 struct ClosestPair {
     std::size_t first;
     Neighbor second;

@@ -35,7 +35,7 @@ std::vector<double> sorted(const PointSet& points, double low, const RunContext&
     return x;
 }
 
-/// For d = 1: half of the widest gap of two points, or the whole gap at a wall if that is wider.
+/// Largest empty ball for d = 1: half of the widest gap of two points, or the whole gap at a wall.
 EmptyBall widest_gap(const PointSet& points, const Distances& distances, const RunContext& run) {
     const double low = distances.box->low[0];
     const double high = distances.box->high[0];
@@ -128,8 +128,8 @@ class Search {
         return more ? best_.radius * (1 + search_.tolerance) : search_.enough;
     }
 
-    /// Adds the points near the part's centre to `bound`, each as its nearest copy. Returns the
-    /// bound's unit of length.
+    /// Adds the points near the part's centre to `bound`; on the torus, the nearest copy of each.
+    /// Returns the bound's unit of length.
     double look_around(const Part& part, Bound& bound) const {
         const auto neighbors = tree_.nearest_several(part.center, neighbors_);
         const double unit =
@@ -272,7 +272,7 @@ Vec2 refined(const CellCorner& before, const CellCorner& corner, double squared_
     return squared_length(change) < 1e-12 * squared_reach ? found : corner.at;
 }
 
-/// A cell whose farthest corner was at least as far as all corners known when the cell was cut.
+/// A candidate cell: its farthest corner is at least as far from its site as any found before.
 struct Record {
     double squared_reach;
     std::size_t site;
@@ -285,7 +285,7 @@ std::vector<Record> best_cells(const PlanarCells& cells, std::size_t count, cons
     constexpr std::uint64_t size = 2048;
     constexpr std::size_t most = 100;  // more ties occur only in periodic sets
     std::vector<std::vector<Record>> parts(block_count(count, size));
-    std::atomic<double> best = 0;  // its timing changes which cells are examined, but no result
+    std::atomic<double> best = 0;  // update timing affects which cells are cut, not the result
     for_each_block(run, count, size, [&](const Block& b) {
         VoronoiCell cell;
         for (std::size_t i = b.first; i < b.last; ++i) {

@@ -5,9 +5,8 @@
 //     radius = max over x in the box of  min_i |x - x_i|.
 //
 // d = 1   half of the widest gap between points, or the whole gap at a wall.
-// d = 2   the maximum is at a corner of a point's Voronoi cell (math/neighbors/planar_sites.hpp). A
-//         cell is abandoned once its corners are nearer to its point than the best corner to its
-//         own.
+// d = 2   the maximum is at a corner of a point's Voronoi cell (math/neighbors/planar_sites.hpp).
+//         Cutting a cell ends once its corners are nearer to its point than the best radius so far.
 // d >= 3  branch and bound over boxes. The points near a box give an upper bound of the radius of
 //         balls centred in it, and a centre whose ball attains this bound up to the square of the
 //         box's size (math/neighbors/covering_bound.hpp). A box is done if its bound is at most
@@ -40,7 +39,7 @@ struct EmptyBall {
 /// Limits of the branch and bound for d >= 3.
 struct BallSearch {
     double tolerance = 1e-6;
-    double enough = 0;  ///< radius R: if no ball is larger, the search proves only this
+    double enough = 0;  ///< radius; if no empty ball is larger, the search only proves this
     std::uint64_t max_boxes = 100'000'000;
 };
 
@@ -52,7 +51,6 @@ EmptyBall largest_empty_ball(const PointSet& points, const Distances& distances,
 EmptyBall bounded_empty_ball(const PointSet& points, const Distances& distances,
                              const BallSearch& search, const RunContext& run);
 
-/// Largest empty ball for d = 2.
 EmptyBall planar_empty_ball(const PointSet& points, const Distances& distances,
                             const RunContext& run);
 

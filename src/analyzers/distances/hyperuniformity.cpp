@@ -37,7 +37,7 @@
 //         with these moments is between two extremes: some pairs at a and the others at m + s^2 /
 //         (m - a), or some at b and the others at m - s^2 / (b - m). Never depends on the number of
 //         threads.
-// Beware  the residuals of the fit say nothing of the exponent's error, since neighbouring radii
+// Beware  the residuals of the fit do not measure the exponent's error, since neighbouring radii
 //         share most of their pairs. The standard error comes from --average: the standard
 //         deviation of the single sets' exponents, divided by the square root of their number,
 //         although the exponent is that of the mean variance. A lattice's oscillations need many
@@ -131,7 +131,7 @@ struct Ball {
     }
 };
 
-/// Radii and bins. Radii are multiples of half a bin, so that no bin is cut.
+/// Radii R and bins of distances. R is a multiple of half a bin's width, so 2 R is a bin's edge.
 struct Plan {
     double unit;                      ///< mean distance (V / n)^(1/d)
     double width;                     ///< width of a bin
@@ -294,8 +294,7 @@ Curves by_pairs(const PointSet& points, const Plan& plan, const Distances& dista
     return curves;
 }
 
-/// Sums over windows, for each radius. The sums are integers, so that the order of windows does not
-/// matter.
+/// Sums over windows, for each radius; integers, so that the order of windows does not matter.
 struct WindowSums {
     std::vector<std::uint64_t> counts;
     std::vector<std::uint64_t> squares;
@@ -411,7 +410,7 @@ void refine(Report& mean, std::size_t, const Values&) {
     add_exponent(mean);
 }
 
-/// Adds the standard error of the exponent. Variances at different radii cannot be averaged.
+/// Adds the standard error of the exponent; rejects sets with windows of different radii.
 void combine(Report& mean, std::span<const Report> sets, const Values&) {
     if (!alike(sets, "fit_from") || !alike(sets, "fit_to")) refuse_mean();
     std::vector<double> exponents;

@@ -99,7 +99,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return results;
 }
 
-/// Pairs cannot be averaged.
+/// Removes the pair, which cannot be averaged.
 void refine(Report& mean, std::size_t sets, const Values&) {
     if (sets > 1) drop(mean, {"pair"});
 }

@@ -162,8 +162,7 @@ struct Curves {
     Report::Curve density;
     Report::Curve deviation;
 
-    /// Adds g(t) from the pairs' sum of weights, and from the mean and the mean square of a single
-    /// pair's weight.
+    /// Adds g(t), from the pairs' sum of weights and from the mean and mean square of one weight.
     void add(double t, double sum, double mean, double mean_square, double pairs) {
         distance.push_back(t);
         density.push_back(mean > 0 ? sum / (pairs * mean) : 0);
@@ -183,8 +182,8 @@ Curves histogram(const Plan& plan, const PairCounts& counts, const RunContext& r
     return curves;
 }
 
-/// Sum over all pairs of 1 - ((s - t) / h)^2, where s is a pair's distance and t the lower edge of
-/// bin `at`.
+/// Sum of 1 - ((s - t) / h)^2 over the pairs with |s - t| < h, where s is a pair's distance and t
+/// the lower edge of bin `at`.
 double parabola_sum(const PairCounts& counts, std::size_t at, std::size_t spread) {
     const auto h = static_cast<double>(spread);
     double sum = 0;
@@ -198,8 +197,8 @@ double parabola_sum(const PairCounts& counts, std::size_t at, std::size_t spread
     return sum;
 }
 
-/// Mean of (1 - ((s - t) / h)^2)^power over the distances s of two independent points. Integrates
-/// by parts, so that no density of distances is needed.
+/// Mean of max(0, 1 - ((s - t) / h)^2)^power for the distance s of two independent points. The
+/// integral is done by parts, so that no density of distances is needed.
 double parabola_mean(const Chances& chances, std::size_t at, std::size_t spread, int power) {
     const auto h = static_cast<double>(spread);
     const std::size_t first = at - std::min(at, spread);
@@ -259,7 +258,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return results;
 }
 
-/// Functions with different bins cannot be averaged.
+/// Rejects functions with different bins, which cannot be averaged.
 void combine(Report&, std::span<const Report> sets, const Values&) {
     if (!alike(sets, "bin_width"))
         fail_with_hint(ErrorKind::usage, "set one --max-distance, or --normalize-distance",

@@ -197,8 +197,8 @@ double within_disk(const Axis& a, const Axis& b, double r) {
     return a.within(flat) * b.within(b.reach()) + under_arc(a, b, r, flat, high);
 }
 
-/// Probability of distances up to r in space: integral over the height c = r sin(angle), split
-/// where the disk at that height meets a side or a corner.
+/// Probability of distances up to r in space: integral over the height r sin(angle) along the axis
+/// c, split where the rim of the disk at that height meets a side or a corner.
 double within_ball(const Axis& a, const Axis& b, const Axis& c, double r) {
     const double top = r > c.reach() ? arc_sine(c.reach() / r) : std::numbers::pi / 2;
     std::array<double, 5> cuts{0, top, top, top, top};
@@ -213,8 +213,7 @@ double within_ball(const Axis& a, const Axis& b, const Axis& c, double r) {
         const double across = r * cos;
         return 2 / c.side * (1 - c.slope * z / c.side) * across * within_disk(a, b, across);
     };
-    // After a cut the area of the disk's part begins with a fractional power, which this rule
-    // handles well.
+    // Near a cut the integrand is a fractional power, which tanh-sinh quadrature handles well.
     thread_local boost::math::quadrature::tanh_sinh<double> rule;
     double sum = 0;
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {

@@ -34,9 +34,9 @@ PairCounts count_pairs(const PointSet& points, const Distances& distances, doubl
 //
 //     p(r) = 1 / V^2 * integral over |x| <= r of c(x) dx,
 //
-// where c is the box's set covariance: prod_k (L_k - |x_k|) for straight distances, and V for the
-// torus, within half a side along each axis, since coordinates never differ by more there. It
-// accounts for the edges exactly: n points have n (n - 1) / 2 * p(r) pairs on average.
+// where c is the box's set covariance: prod_k (L_k - |x_k|) for straight distances; on the torus, V
+// if all |x_k| <= L_k / 2, else 0. The edges are accounted for exactly: n points have on average
+// n (n - 1) / 2 * p(r) pairs at most r apart.
 //
 // Shape   a box of 1, 2 or 3 dimensions and positive sides; r >= 0; p in [0, 1].
 // Cost    closed forms in 1-D and 2-D, an integral over one angle in 3-D.

@@ -64,8 +64,7 @@ constexpr Param<Choice> expect{
     .choices = "valid",
     .help = "Fail (exit code 1) if points are too close or the set is not maximal"};
 
-/// An option with which the points were made, from their provenance; nullopt if unknown, or if the
-/// points were warped.
+/// Value of a generator's option in the points' provenance; nullopt if unknown or after warps.
 std::optional<std::string> option_of(const PointSet& points, std::string_view option) {
     if (!points.provenance.warps.empty()) return std::nullopt;
     for (const auto& [name, text] : points.provenance.options)
@@ -173,7 +172,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return results;
 }
 
-/// Positions and pairs cannot be averaged. A mean is valid if all sets are.
+/// Removes positions and pairs, which cannot be averaged. The mean is valid if all sets are.
 void refine(Report& mean, std::size_t sets, const Values& options) {
     const auto* item = mean.find("valid");
     const bool* valid = item ? std::get_if<bool>(item) : nullptr;

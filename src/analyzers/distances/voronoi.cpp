@@ -5,14 +5,14 @@
 //
 //     area           a_i of each cell, in V / m, and their coefficient of variation; its square is
 //                    the capacity error of Balzer et al., mean (a_i m / V - 1)^2
-//     valence        k_i, the neighbours of each; 6 on average on the torus
+//     valence        k_i, the number of neighbours of each cell; 6 on average on the torus
 //     bond order     psi_i = 1 / k_i * sum over neighbours j of exp(6 i theta_ij), as
 //                    local   mean |psi_i|      1 if each has its neighbours in a regular hexagon
 //                    global  |mean psi_i|      1 if all hexagons are also parallel
 //                    bonds   |mean over all bonds of exp(6 i theta)|
 //     Lloyd energy   E = 1 / V * integral of |x - nearest point|^2 dx; m E / (2 V) is the
 //                    normalized second moment
-//     centroids      their distances from their points, in sqrt(V / m)
+//     centroids      distance of each cell's centroid from its point, in sqrt(V / m)
 //
 // An edge shorter than --shortest-edge counts as a corner of four cells, so the cells beside it are
 // not neighbours: cells of a square lattice have 4 neighbours, and psi_i = 0. On the torus

@@ -23,23 +23,24 @@
 //
 // --compare adds the estimate by uniform sampling to that by importance sampling with density p.
 // Uniform points come from the same points of the cube: x_i is mapped back to the cube by the
-// domain's coordinates, in which p is uniform, and from there to the box, hemisphere or sphere by
-// its measure. Variances are those of single samples, f / p and measure x f, over the set. Their
-// ratio is the factor by which more independent uniform points would be needed.
+// domain's coordinates, in which p is uniform, and from there uniformly to the box, hemisphere or
+// sphere. Variances are those of single samples, f / p and measure x f, over the set. Their ratio
+// is the factor by which more independent uniform points would be needed.
 //
-// If the density is 0 on a part of the domain, no point samples f there: the estimate is that of
-// the integral over the density's support. So is `exact`, by quadrature to exact_error if the
-// support consists of a few known boxes of one or two dimensions, and otherwise left out.
+// If the density is 0 on a part of the domain, the estimate and `exact` are those of the integral
+// over the density's support. Then `exact` of `measure` is the support's measure, if known; that of
+// others is found by quadrature, within exact_error, if the support consists of known boxes in one
+// or two dimensions.
 //
 // If the density is constant, on any domain, both estimates use the same points. If the domain has
-// no coordinates in which p is uniform (mixtures, formulas, supports with gaps), or the density is
-// not its own, the variance of uniform points is computed from the weights of the given points,
+// no coordinates in which p is uniform (mixtures, formulas, supports with gaps), or p is not the
+// domain's density, the variance of uniform points is computed from the weights of the points,
 //
 //     n / (n - 1) (measure mean(f^2 / p) - mean(f / p)^2),
 //
 // which converges to the same number; the uniform estimate is then that by importance sampling.
 //
-// Shape   points n x d on any domain with a finite measure; numbers for each integrand.
+// Shape   points n x d on any domain; --integrand and --compare need one of finite measure.
 // Cost    O(n d) for each integrand; about 10 to 50 ns per point in 2-D on one core.
 // Promise sums are compensated for rounding; results are the same for any number of threads.
 // Beware  if p approaches 0 and f does not, f / p may have no finite variance (`measure` on the
@@ -155,8 +156,7 @@ Named named(const std::string& text) {
     }
 }
 
-/// Integral over the boxes of the support; nullopt if there are no boxes, or more than two
-/// dimensions.
+/// Integral over the boxes of the support; nullopt without boxes, or above two dimensions.
 std::optional<Estimate> integral_over(const Support& support, const Domain& domain,
                                       const RegionView& view, const Task& task) {
     const std::size_t d = domain.dimension();
@@ -274,7 +274,7 @@ struct Fault {
 /// Sums over one block, or over all blocks.
 struct Sums {
     std::vector<Tally> weighted;  ///< f / p, for each integrand
-    std::vector<Tally> uniform;   ///< for each: measure x f at uniform points, or measure x f^2 / p
+    std::vector<Tally> uniform;   ///< measure x f at uniform points; if weighed, measure x f^2 / p
     Outside outside;
     Fault fault;
 
@@ -298,7 +298,7 @@ struct Uniform {
     };
     How how = none;
     double measure = 0;  ///< measure of the domain on which these points are uniform
-    /// An unknown measure, estimated from the weights of the points.
+    /// Estimate of the measure from the points' weights, if the measure is not known.
     std::optional<Tally> found = {};
 };
 
@@ -447,7 +447,7 @@ bool follows_domain(const PointSet& points) {
     return true;
 }
 
-/// Chooses how --compare gets its uniform estimate. @throws Error(input) if there can be none
+/// Chooses how --compare makes its uniform estimate. @throws Error(input) if that is impossible
 Uniform uniform_for(const PointSet& points, const RegionView& view, const Support& support) {
     if (points.count() < 2) fail(ErrorKind::input, "--compare: needs at least 2 points, not 1");
     const Domain& domain = *points.domain;

@@ -12,9 +12,9 @@
 //
 // A projection to the coordinates u has its own R_u and t_u. R_u is the smaller one of two numbers:
 // the minimum of R_v over all proper subsets v of u, and the least number of digits for which boxes
-// cut along all of u become unequal. So projections are analyzed from the smallest on. The whole
-// set then needs only boxes that are cut along more than --projections coordinates, with fewer
-// digits than those that already failed.
+// cut along all of u hold unequal numbers of points. So projections are analyzed from the smallest
+// on. The whole set then needs only boxes that are cut along more than --projections coordinates,
+// with fewer digits than the least R of the projections.
 //
 // Shape   n = b^m points in [0, 1]^d; t in 0..m, smaller is more even; random points are near m.
 // Cost    at most C(R+d-1, d-1) divisions, each of n steps or, for a digital net, of R^2 m. 2^14
@@ -23,8 +23,8 @@
 // Promise exact, and the same for any number of threads.
 // Beware  a coordinate counts as on the edge j / b^m if it is the double nearest to it, since k /
 //         b^K may have been rounded to below its edge; 1 belongs to the last box.
-// Source  H. Niederreiter, Monatsh. Math. 104 (1987) 273-337, doi:10.1007/BF01294651 (nets, and
-//         digital nets, whose t is a matter of rank).
+// Source  H. Niederreiter, Monatsh. Math. 104 (1987) 273-337, doi:10.1007/BF01294651 (nets; t of
+//         digital nets from ranks of matrices).
 
 #include <algorithm>
 #include <functional>
@@ -99,8 +99,7 @@ class Search {
         return found;
     }
 
-    /// Worst projections, given R of all projections up to some size; searches the larger
-    /// projections.
+    /// Worst projections of all sizes, given R of all projections up to some size.
     [[nodiscard]] Worst worst(const std::vector<Unequal>& known, const RunContext& run) const {
         const Worst small = worst_of(known);
         const auto levels = levels_above(known.size() - 1, small.unequal);

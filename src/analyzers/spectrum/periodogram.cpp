@@ -36,7 +36,7 @@
 // Units   cycles per unit length (for a box: per side). Published tables give the effective Nyquist
 //         frequency divided by `regular_nyquist`, n^(1/d) / 2, which is that of a regular grid.
 // Cost    O(n w^d + (4F)^d log F), see math/fourier/nufft.hpp; `direct` O(n (2F)^d). Sets of up to
-//         2^20 points are kept until their number is known; of larger ones only a batch.
+//         2^20 points are kept until their number is known; of larger sets only a batch is kept.
 // Promise the same for any number of threads, and whether points arrive at once or in batches. The
 //         same in every run, except for last bits with --wisdom, where FFTW measures its plans.
 // Beware  one set's power has a standard deviation of 100 % at every frequency: average sets. A
@@ -150,7 +150,7 @@ constexpr Param<std::int64_t> slice{
 
 constexpr double floor_of_floats = 1e-13;
 constexpr std::uint64_t buffered_points = std::uint64_t{1} << 20;
-// Number of points assumed for larger sets of unknown size.
+/// Number of points for which the transform is planned if a set has more than buffered_points.
 constexpr std::uint64_t most_points = std::uint64_t{1} << 30;
 
 /// The sums sum_j s_j and sum_j s_j^2.
@@ -184,7 +184,7 @@ class StrengthSums {
         sum_.pack(to);
         squares_.pack(to);
     }
-    /// The points of this object must be whole blocks.
+    /// The number of points added to this object must be a multiple of `block`.
     void merge(Unpacker& from) {
         if (points_ > 0) close();
         sum_.merge(from);
@@ -449,8 +449,7 @@ class Summation final : public SharedAccumulator {
                        index, format_number(strength), format_number(least), format_number(most));
     }
 
-    /// Whether no point needs note(): all are in the unit cube, and the set is known to have two
-    /// distinct points.
+    /// Whether note() is not needed: all points are in the unit cube, and not all are equal.
     [[nodiscard]] bool note_all(std::span<const double> rows) const {
         return cube_ && !all_equal_ && all_inside(rows);
     }
@@ -584,7 +583,7 @@ void refine(Report& mean, std::size_t sets, const Values& options) {
     summarize(mean, power, sets, options, {});
 }
 
-/// Spectra at different normalized frequencies cannot be averaged.
+/// Rejects spectra at different normalized frequencies, which cannot be averaged.
 void combine(Report&, std::span<const Report> sets, const Values& options) {
     if (options[normalize] && !alike(sets, "regular_nyquist"))
         fail_with_hint(ErrorKind::usage,
@@ -593,7 +592,7 @@ void combine(Report&, std::span<const Report> sets, const Values& options) {
                        "normalised frequencies");
 }
 
-/// Fixes the first set's frequencies for sets of other sizes, so that spectra can be averaged.
+/// Uses the first set's frequencies for sets of other sizes, so that spectra can be averaged.
 void follow(const Report& first, Values& options) {
     if (options.given(max_frequency)) return;
     options.put(max_frequency.name, static_cast<std::int64_t>(first.number("max_frequency")));

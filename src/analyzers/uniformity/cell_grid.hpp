@@ -20,15 +20,14 @@ using CellGrid = std::vector<std::size_t>;  ///< number of cells along each axis
 inline constexpr std::uint64_t fewest_expected = 5;
 inline constexpr std::uint64_t most_cells = 100'000'000;
 
-/// Numbers of points whose default grids larger sets use, too: a set takes the grid of the largest
-/// of these numbers that is not above its count. Sets below the first number have their own grids.
+/// A set uses the default grid for the largest of these numbers of points that is not above its own
+/// number; sets with fewer points than the first have their own grids.
 inline constexpr std::uint64_t grid_counts[] = {1U << 20, 1U << 24, 1U << 28};
 
 /// Largest number of axes that a default grid cuts.
 inline constexpr std::size_t most_cut_axes = 8;
 
-/// Default grid: odd primes with a product near 2 n^(2/5), at most n / 5. @throws Error(input) for
-/// n < 15
+/// Default grid: odd primes, product near 2 n^(2/5), at most n / 5. @throws Error(input) if n < 15
 CellGrid default_grid(std::uint64_t n, std::size_t axes);
 
 /// Grid given by --cells. @throws Error(usage)
@@ -36,9 +35,8 @@ CellGrid asked_grid(const std::vector<std::int64_t>& extents, std::size_t axes);
 
 std::uint64_t cell_count(const CellGrid& grid);
 
-/// Index of the cell of a point of the closed cube; ignores coordinates after those of the grid. A
-/// shifted grid is moved by half a cell along every axis that it cuts, on the torus: cell 0 begins
-/// half a cell before 0.
+/// Index of the cell of a point of the closed cube; ignores coordinates after those of the grid. If
+/// shifted, the first cell of each axis begins half a cell before 0, on the torus.
 std::size_t cell_of(std::span<const double> cube, const CellGrid& grid, bool shifted);
 
 /// Probabilities of all cells, whose sum is checked to be 1.

@@ -18,11 +18,11 @@
 // its distance from the gap's edges exceeds the rounding of single precision.
 //
 // The default grid has the largest product of odd primes near 2 n^(2/5) (Mann and Wald's rate), at
-// most n / 5, on as many of the first axes as get 3 cells each. The primes are odd because strata
-// usually divide an axis by 2 or 10, and cells aligned with strata reveal nothing. Other axes are
-// cut by --cells only. Above 2^20 points the grid is that of 2^20, 2^24 or 2^28 points, whichever
-// is the largest not above n. So the points of a stream of unknown length are counted in these
-// grids and need not be kept.
+// most n / 5, on as many of the first axes as can have 3 cells each. The primes are odd, since
+// strata usually divide an axis by 2 or 10, and cells aligned with strata reveal nothing. Other
+// axes are cut by --cells only. Above 2^20 points the grid is that of 2^20, 2^24 or 2^28 points,
+// whichever is the largest not above n. So the points of a stream of unknown length are counted in
+// these grids and need not be kept.
 //
 // --shifted also counts in a second grid, moved by half a cell along every axis that is cut (on the
 // torus). The two tests depend on each other; combined_p_value = 1 - (1 - p)^2 of the smaller p
@@ -95,7 +95,7 @@ constexpr Param<Choice> combination{
 
 constexpr std::uint64_t held_points = grid_counts[0];  ///< points kept until the grid is known
 
-/// Gaps of a domain's density: no point can be there, whatever the probability of the cell.
+/// Gaps of a domain's density. No point can be in a gap, whatever the probability of the cell.
 class Gaps {
   public:
     explicit Gaps(DomainPtr domain) : domain_(std::move(domain)) {
@@ -165,7 +165,7 @@ class Tally {
         if (with_shifted) shifted_.resize(total);
     }
 
-    /// Counts points of the cube, rows of `width` numbers, of which the grid uses the first.
+    /// Counts points of the cube, given by `width` coordinates each; the grid uses the first ones.
     void add(std::span<const double> cubes, std::size_t width) {
         for (std::size_t i = 0; i < cubes.size(); i += width)
             ++counts_[cell_of(cubes.subspan(i, width), grid_, false)];
@@ -316,8 +316,7 @@ class Counter final : public SharedAccumulator {
     }
 
   private:
-    /// Counts points, given as rows and as coordinates of the cube; keeps the latter until the grid
-    /// is known.
+    /// Counts points, given as rows and as `cubes`; keeps the cubes until the grid is known.
     void take(std::span<const double> rows, std::span<const double> cubes, const RunContext& run) {
         in_gaps_ += gaps_.count(rows, run);
         for (Tally& tally : tallies_) tally.add(cubes, axes_);
@@ -339,7 +338,7 @@ class Counter final : public SharedAccumulator {
 
     [[nodiscard]] Fit fit(const Tally& tally, bool second, const RunContext& run) const {
         Fit found = tally.fit(*domain_, second, n_, run);
-        found.impossible = std::max(found.impossible, in_gaps_);  // cells of probability 0 are gaps
+        found.impossible = std::max(found.impossible, in_gaps_);  // may both count a point
         return found;
     }
 
@@ -388,8 +387,7 @@ void refine(Report& mean, std::size_t sets, const Values& options) {
              mean.number("smallest_detectable_effect") * std::sqrt(shrink));
 }
 
-/// Tails over several sets by the combination `sum`: the sum of their statistics has the sum of
-/// their degrees of freedom.
+/// Tails over several sets by the combination `sum` of statistics and of degrees of freedom.
 Judged summed(const Report& mean, std::span<const Report> sets, const std::string& prefix) {
     const Tails never{.upper = 0, .lower = 1};
     if (mean.number(prefix + "impossible_points") > 0) return {never, never, never};

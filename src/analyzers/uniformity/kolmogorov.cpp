@@ -74,8 +74,7 @@ Scaled transitions(std::size_t k, double h) {
     return a;
 }
 
-/// Sum of the expansion over all integers k of term(q^2) exp(-q^2 / (2 z^2)), where q = pi (k +
-/// offset).
+/// Sum over all integers k of term(q^2) exp(-q^2 / (2 z^2)), where q = pi (k + offset).
 template <class F>
 double theta_sum(double z, double offset, const F& term) {
     double sum = 0;

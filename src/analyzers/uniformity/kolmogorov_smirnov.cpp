@@ -14,14 +14,11 @@
 //
 // Sets of more than 2^26 coordinates (or --exact-points) are not kept. Their points are counted in
 // equal cells of each axis (a power of two, at least 4096 and at most 2^26 / d), whose ends are
-// exact. D is then a maximum over the ends of cells, and below the true value by at most
+// exact doubles. D is then the maximum over the ends of cells. The true value exceeds it by at most
+// `statistic_error`, which is not above the width of a cell.
 //
-//     statistic_error = the longest step from one end of a cell to the next, of i/n and of u,
-//
-// about 2^-25 d + 1/n times the points of the fullest cell.
-//
-// Outcomes of a discrete distribution are spread at random over their cells in the cube, in the
-// same way in every run and whatever axes follow, which makes them uniform.
+// Outcomes of a discrete distribution are moved to random positions in their cells of the cube,
+// which makes them uniform. The positions are the same in every run.
 //
 // Shape   points n x d on any domain whose coordinates preserve probability (all except a few) or
 //         are outcomes, also in batches.

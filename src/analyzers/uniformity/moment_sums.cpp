@@ -93,8 +93,7 @@ void MomentSums::add(std::span<const double> rows, const RunContext& run) {
     count_ += count;
 }
 
-/// Appends a node, and merges the last two nodes as long as they are siblings in the binary tree of
-/// batches.
+/// Appends a node; merges the last two as long as they are siblings in the binary tree of batches.
 void MomentSums::take(Node node) {
     nodes_.push_back(std::move(node));
     while (nodes_.size() > 1) {

@@ -44,8 +44,8 @@ struct SampleAndErrors {
 
 class MomentSums {
   public:
-    /// Sums about one value per column; `first` is the index of the first batch. The units are those
-    /// that suit `rows`, or 1 without them.
+    /// Sums powers of (x - about) / unit, with one value of each per column; `first` is the first
+    /// batch's index. The units suit `rows`; without rows they are 1.
     explicit MomentSums(std::vector<double> about, std::uint64_t first = 0,
                         std::span<const double> rows = {});
 
@@ -75,7 +75,7 @@ class MomentSums {
 
     [[nodiscard]] std::size_t width() const { return about_.size(); }
     [[nodiscard]] std::size_t size() const;
-    /// Index of the sums of products of columns i < j: x y, x^2 y, x y^2, x^2 y^2.
+    /// Index of the first of four sums for the columns i < j: of x y, x^2 y, x y^2 and x^2 y^2.
     [[nodiscard]] std::size_t pair(std::size_t i, std::size_t j) const;
     void add_block(std::span<const double> rows, std::span<double> sums) const;
     void take(Node node);

@@ -31,7 +31,7 @@ std::uint64_t group_size(std::uint64_t n, std::uint64_t total) {
 }
 
 /// Probability that independent points fall into equal groups as evenly as possible: n mod K groups
-/// have one point more than the others. The continuous chi-square distribution gives 0 for this.
+/// have one point more than the others. The continuous chi-square distribution gives nearly 0.
 double most_even_chance(std::uint64_t n, std::uint64_t groups) {
     const auto k = static_cast<double>(groups);
     const auto more = static_cast<double>(n % groups);
@@ -42,8 +42,7 @@ double most_even_chance(std::uint64_t n, std::uint64_t groups) {
     return std::min(1.0, exponential(ways + counts - static_cast<double>(n) * logarithm(k)));
 }
 
-/// Collects q_1, q_2, ... of pearson.hpp for groups in ascending order of their expectations; stops
-/// below 1e-30.
+/// Collects q_1, q_2, ... of pearson.hpp, down to 1e-30. Groups must be in order of expectation.
 class ModalProbabilities {
   public:
     explicit ModalProbabilities(std::uint64_t n) : whole_(static_cast<double>(n)), rest_(whole_) {}
@@ -65,8 +64,7 @@ class ModalProbabilities {
     std::vector<double> found_;
 };
 
-/// Cells with a probability above 0, the least probable first. Points in other cells are
-/// impossible.
+/// Cells with a probability above 0, the least probable first; other points are impossible.
 std::vector<std::uint64_t> possible_cells(std::span<const std::uint64_t> counts,
                                           std::span<const Estimate> masses, Fit& found) {
     std::vector<std::uint64_t> cells;
@@ -96,8 +94,7 @@ struct Group {
     }
 };
 
-/// Pools consecutive cells into groups that expect at least 5 points. @throws Error(input) for
-/// fewer than two groups
+/// Pools consecutive cells into groups that expect >= 5 points. @throws Error(input) below 2 groups
 std::vector<Group> pool(const std::vector<Group>& cells, std::uint64_t n) {
     std::vector<Group> groups;
     Group open;
@@ -149,7 +146,7 @@ Fit fit_equal(std::span<const std::uint64_t> counts, std::uint64_t n, const RunC
         const std::uint64_t last = g + 1 < found.groups ? first + size : total;
         std::uint64_t observed = 0;
         for (std::uint64_t c = first; c < last; ++c) observed += counts[c];
-        // K (O - E) and K n E are integers.
+        // K (O - E) is an integer, where K = `total` is the number of cells.
         const auto scaled = static_cast<double>(static_cast<Int128>(observed) * total -
                                                 static_cast<Int128>(last - first) * n);
         const double expected = static_cast<double>(n) *
@@ -292,8 +289,7 @@ namespace {
 constexpr double most_steps = 2e6;
 constexpr double tie = 1e-12;  ///< tolerance for statistics that differ only by rounding
 
-/// Sums over the counts m + e of equal groups, with weights m! m^e / (m + e)!, indexed by the sum
-/// of e and the sum of e^2.
+/// Sums of the weights m! m^e / (m + e)! of counts m + e of equal groups, by sum e and sum e^2.
 class EqualCounts {
   public:
     /// @param squares largest sum of e^2
@@ -308,8 +304,7 @@ class EqualCounts {
             weights_[k] = weights_[k + 1] * ((count - static_cast<double>(zero - k - 1)) / count);
     }
 
-    /// Sum of the weights of all counts of `groups` groups whose e add up to `rest`, below
-    /// `groups`.
+    /// Sum of the weights of all counts of `groups` groups whose e have the sum `rest` < `groups`.
     double sum(std::int64_t groups, std::int64_t rest) {
         if (rest > squares_) return 0;  // the sum of squares of integers is at least their sum
         reach_ = root(groups * squares_) + 1;
@@ -332,7 +327,7 @@ class EqualCounts {
         return static_cast<std::size_t>((sum + reach_) * (squares_ + 1) + squares);
     }
 
-    /// Adds a group to the sums; drops those that cannot reach `rest` with `left` more groups.
+    /// Adds a group to the sums; drops sums that cannot become `rest` with `left` more groups.
     [[nodiscard]] std::vector<double> with_group(const std::vector<double>& from, std::int64_t left,
                                                  std::int64_t rest) const {
         std::vector<double> to(table_size());
@@ -355,8 +350,8 @@ class EqualCounts {
     std::vector<double> weights_;
 };
 
-/// Binomial probability of `count` of n points if `expected` are expected. The powers of n, k and n
-/// - k are separated from n! / (k! (n - k)!), so that nothing cancels.
+/// Binomial probability of k = `count` of n points whose mean is `expected`. The powers of n, k and
+/// n - k are separated from n! / (k! (n - k)!), so that nothing cancels.
 double binomial_chance(double count, double n, double expected) {
     const auto off = [](double found, double right) {
         const double e = (found - right) / right;
@@ -385,8 +380,7 @@ class UnequalCounts {
         return count;
     }
 
-    /// Probability that groups k, k + 1, ... share `left` points and add at most `room` to the
-    /// statistic.
+    /// Probability that `left` points in the groups k, k + 1, ... add at most `room` to X^2.
     [[nodiscard]] double chance(std::size_t k, std::uint64_t left, double room) const {
         const double here = expected_[k];
         const double rest = behind_[k];

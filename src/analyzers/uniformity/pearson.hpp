@@ -21,8 +21,8 @@
 // if the counts can be enumerated (pearson.cpp). Otherwise, let q_s be the probability of the
 // most probable counts in the s groups with the smallest expectations, and F_f the chi-square
 // distribution function (F_0 = 1). With these s groups fixed and the others treated as continuous,
-// the probability is q_s F_(f-s). A ball contains about as many lattice points as its volume and
-// the volumes of its sections add up to, so
+// the probability is q_s F_(f-s). The number of lattice points in a ball is about the sum of its
+// volume and the volumes of its sections, so
 //
 //     lower tail = max(F_f + q_f (1 - F_f), sum_{s=1..f} q_s F_(f-s)),    f = degrees of freedom,
 //
@@ -77,16 +77,14 @@ struct Tails {
 /// Tails of chi-square with these degrees of freedom.
 Tails chi_square_tails(double statistic, double freedom);
 
-/// Like chi_square_tails(), with the lower tail for integer counts; `statistic` is on the groups of
-/// `fit`.
+/// Like chi_square_tails(), with the lower tail for integer counts in the groups of `fit`.
 Tails count_tails(double statistic, const Fit& fit);
 
 /// Probability that the statistic of n independent points is at most `statistic`, for at most n
 /// groups of equal probability; nullopt if it would take too long.
 std::optional<double> exact_lower_tail(double statistic, std::uint64_t n, std::uint64_t groups);
 
-/// The same probability for two or more groups with the given expected numbers of points, whose sum
-/// is n.
+/// The same for two or more groups with the given expected numbers of points, whose sum is n.
 std::optional<double> exact_lower_tail(double statistic, std::uint64_t n,
                                        std::span<const double> expected);
 
