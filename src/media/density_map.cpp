@@ -102,8 +102,8 @@ double fraction_before(std::span<const double> sums, std::size_t cell, double wa
     return std::min((wanted - before) / (sums[cell] - before), one_minus_ulp);
 }
 
-/// Buckets with at most this number of sums are searched in a fixed number of steps. Most are; a
-/// higher limit would touch another cache line.
+/// Buckets with at most this number of sums, as most have, are searched in a fixed number of steps.
+/// A higher limit would touch another cache line.
 constexpr std::size_t few_in_bucket = 4;
 
 /// Fraction of the total mass before a position in a cell.
@@ -189,8 +189,7 @@ std::array<double, 2> DensityMap::place(double u, double v) const {
     return {across(visit), visit.y};
 }
 
-/// Three pipeline stages, each some points ahead of the next, so that the memory accesses of many
-/// points overlap.
+/// Has three stages, each 8 points ahead of the next, so that memory accesses overlap.
 [[gnu::flatten]] void DensityMap::place_all(std::span<const double> cube,
                                             std::span<double> image) const {
     constexpr std::size_t ahead = 8;

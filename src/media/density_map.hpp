@@ -38,8 +38,7 @@ namespace stipple {
 
 class DensityMap {
   public:
-    /// Scales the values to a mean of 1.
-    /// @param values in row-major order from y = 0, not all 0
+    /// Scales the values to a mean of 1. @param values in row-major order from y = 0, not all 0
     DensityMap(std::size_t width, std::size_t height, std::vector<double> values);
 
     [[nodiscard]] std::size_t width() const { return width_; }
@@ -58,12 +57,10 @@ class DensityMap {
     /// Largest density at points of the closed rectangle [x0, x1] x [y0, y1].
     [[nodiscard]] double largest_in(double x0, double x1, double y0, double y1) const;
 
-    /// Maps a point of [0, 1)^2 so that uniform points get this density. y increases with v, and x
-    /// with u.
+    /// Maps uniform points of [0, 1)^2 to this density. y increases with v, and x with u.
     [[nodiscard]] std::array<double, 2> place(double u, double v) const;
 
-    /// Applies place() to all rows (u, v) of `cube`; faster, since it overlaps the memory accesses
-    /// of rows.
+    /// Applies place() to all rows (u, v) of `cube`; faster, since memory accesses overlap.
     void place_all(std::span<const double> cube, std::span<double> image) const;
 
     /// Inverse of place(), from the closed unit square into itself. A point of an empty cell maps
@@ -106,9 +103,8 @@ class DensityMap {
     double largest_ = 0;
 };
 
-/// Reads a picture or an array. @throws Error(io): missing or unreadable; Error(input), naming the
-/// file: neither PNG, PFM nor NPY, damaged, not two-dimensional, empty, negative, not finite, or
-/// all zero; Error(limit)
+/// Reads a picture or array. @throws Error(io): missing or unreadable; Error(input): not PNG, PFM
+/// or NPY, damaged, not two-dimensional, empty, negative, not finite or all zero; Error(limit)
 DensityMap read_density(const std::string& path, bool invert, const RunContext& run);
 
 /// Reads an NPY array of lengths, unscaled. @throws as read_density; Error(input) also for other

@@ -6,9 +6,8 @@
 //     integral of t^k rho(t, y) over P  =  closed integral of F_k(x, y) dy along P's edges,
 //     F_k(x, y) = integral of t^k rho(t, y) dt from 0 to x,
 //
-// with F_k tabulated at the left side of each pixel. Edges are split where they cross pixel
-// boundaries; on each part the integrand is a polynomial of degree at most 3, so Simpson's rule is
-// exact.
+// with F_k tabulated at the left side of each pixel. Edges are split at pixel boundaries; on each
+// segment the integrand is a polynomial of degree at most 3, so Simpson's rule is exact.
 //
 // Cost    O(number of pixels that the edges cross); 32 bytes a pixel.
 // Promise exact up to rounding, about 1e-15 times the mass of a row of pixels times the polygon's

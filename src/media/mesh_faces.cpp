@@ -33,8 +33,7 @@ std::vector<std::uint32_t> different(const Ring& corners) {
     return places;
 }
 
-/// Orientation of the ring, at its lowest corner: 1 counterclockwise, -1 clockwise, 0 if the corner
-/// is straight.
+/// Orientation of the ring at its lowest corner: 1 counterclockwise, -1 clockwise, 0 straight.
 int direction(const Ring& ring) {
     std::size_t low = 0;
     for (std::size_t i = 1; i < ring.size(); ++i)
@@ -111,8 +110,7 @@ class EarCutter {
         return true;
     }
 
-    /// Removes corner i. Returns the next corner to test: not a neighbour of i, which would make a
-    /// fan of slivers.
+    /// Removes corner i. Returns the corner to test next; a neighbour of i would make slivers.
     std::uint32_t take_off(std::uint32_t i) {
         const std::uint32_t a = before_[i];
         const std::uint32_t b = after_[i];
@@ -131,7 +129,7 @@ class EarCutter {
     std::vector<std::uint32_t> before_;
     std::vector<std::uint32_t> after_;
     std::vector<bool> sharp_;
-    std::vector<std::uint32_t> blunt_;  ///< corners that are not convex
+    std::vector<std::uint32_t> blunt_;  ///< reflex and straight corners
 };
 
 /// Triangulates a plane polygon; nullopt if its edges cross, overlap or touch.

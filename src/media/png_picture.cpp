@@ -183,8 +183,7 @@ PngPicture read_png(std::string_view bytes, const std::string& source, const Run
     return picture;
 }
 
-/// Format of a chunk (PNG, second edition, ISO/IEC 15948:2004, 5.3): length, type, data, CRC of
-/// type and data.
+/// A chunk (ISO/IEC 15948:2004, 5.3) is its data's length, type, data, CRC of type and data.
 std::string png_with_text(std::string_view png, std::string_view keyword, std::string_view text) {
     constexpr std::size_t behind_header = 8 + 12 + 13;
     std::string content("tEXt");
@@ -204,9 +203,8 @@ std::string png_with_text(std::string_view png, std::string_view keyword, std::s
 
 namespace {
 
-/// Text of an iTXt chunk (11.3.4.5). `data` follows the keyword: compression flag and method,
-/// language and translated keyword, each terminated by 0, and the text. nullopt if it is
-/// compressed.
+/// Text of an iTXt chunk (11.3.4.5); nullopt if compressed. `data` follows the keyword: compression
+/// flag and method, language and translated keyword, each terminated by 0, and the text.
 std::optional<std::string> international_text(std::string_view data) {
     if (data.size() < 2 || data[0] != 0) return std::nullopt;
     data.remove_prefix(2);

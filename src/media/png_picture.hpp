@@ -35,8 +35,7 @@ struct PngPicture {
 
 inline constexpr std::string_view png_magic = "\x89PNG\r\n\x1a\n";
 
-/// Decodes a picture. @throws Error(input) "SOURCE: error" if the bytes are not a complete PNG
-/// picture; Error(limit)
+/// Decodes a PNG. @throws Error(input) "SOURCE: error" if it is damaged or cut off; Error(limit)
 PngPicture read_png(std::string_view bytes, const std::string& source, const RunContext& run);
 
 /// Size and sample format of a picture without colour profile.

@@ -37,7 +37,6 @@ class TokenFile {
     TokenFile(const TokenFile&) = delete;
     TokenFile& operator=(const TokenFile&) = delete;
 
-    /// Whether no token is left.
     [[nodiscard]] bool at_end() const { return at_ == bytes_.size(); }
 
     /// Whether no token is left on the line of the last token; true before the first one.

@@ -32,8 +32,7 @@ struct Highest {
     std::int64_t place = -1;
 };
 
-/// Vertex index of a corner "7", "7/1", "7//3" or "-1"; negative numbers count back from the latest
-/// vertex.
+/// Vertex index of a corner "7", "7/1", "7//3" or "-1", where -1 is the latest vertex, and so on.
 std::uint32_t corner(TokenFile& file, std::size_t vertices, Highest& highest) {
     const Token token = file.next("a corner");
     const std::string_view text = token.text.substr(0, token.text.find('/'));

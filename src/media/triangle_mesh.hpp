@@ -41,8 +41,7 @@ class MeshFaces {
     /// Adds a face. @param polygon vertex indices of its corners, at least 3
     void add(std::span<const std::uint32_t> polygon);
 
-    /// Triangulates all faces. @throws Error(input) naming the first face, counted from 1, that is
-    /// not a simple polygon
+    /// Triangulates all faces. @throws Error(input) naming the first that is not a simple polygon
     [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles(
         const std::vector<Vector3>& vertices, const std::string& name, const RunContext& run) const;
 
