@@ -42,7 +42,7 @@ inline DoubleDouble exact_product(double a, double b) {
     return {product, std::fma(a, b, -product)};
 }
 
-/// Product of two doubles, with a relative error of at most 2^-104, without fused multiply-adds: for
+/// Product of two doubles with a relative error of at most 2^-104, without fused multiply-adds, for
 /// loops on any processor.
 inline DoubleDouble split_product(double a, double b) {
     constexpr std::uint64_t upper = ~0x7ffffffULL;  // keeps 26 bits; a_low b_low may be rounded
