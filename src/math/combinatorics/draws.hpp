@@ -26,8 +26,7 @@ class DrawStream {
         return batch_[used_++];
     }
 
-    /// Writes a uniform point of the box to p; redraws coordinates that are rounded to an upper
-    /// face.
+    /// Writes a uniform point of the box to p; redraws coordinates that round to an upper face.
     void point(const Box& box, double* p) {
         for (std::size_t k = 0; k < box.dimension(); ++k) do
                 p[k] = box.low[k] + next() * box.extent(k);
