@@ -11,9 +11,9 @@ namespace {
 
 /// A part of a formula: a constant, an affine function coefficients . x + number, or inequalities.
 struct Part {
-    std::size_t begin;  ///< its first step
+    std::size_t begin;  ///< index of its first step
     bool constant;      ///< without variables; its number is computed when needed
-    std::vector<double> coefficients = {};  ///< empty if constant, or no affine function
+    std::vector<double> coefficients = {};  ///< empty if constant or not affine
     double number = 0;
     std::vector<HalfSpace> inequalities = {};
 
@@ -118,7 +118,7 @@ class Affine {
         return true;
     }
 
-    /// Computes the number of a constant that ends before a step.
+    /// Computes the value of a constant part whose steps end before `end`.
     void compute(Part& part, std::size_t end) const {
         if (!part.constant) return;
         part.number = formula_.constant(part.begin, end);

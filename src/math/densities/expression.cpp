@@ -54,8 +54,7 @@ double log_of(double x) {
     if (x == infinity) return infinity;
     return x > 0 ? logarithm(x) : (x == 0 ? -infinity : nan);
 }
-/// Logarithm in another base; whole numbers are exact.
-/// @param per_log 1 / log(base)
+/// Logarithm in another base, with per_log = 1 / log(base); exact if the result is a whole number.
 double log_of(double x, const DoubleDouble& per_log) {
     if (!(x > 0 && x < infinity)) return log_of(x);
     return (logarithm_parts(x) * per_log).high;
@@ -132,7 +131,7 @@ double hypotenuse(double x, double y) {
     return std::ldexp(std::sqrt(a * a + b * b), scale);
 }
 
-/// Powers, of which squares are the most frequent.
+/// Powers, with a fast loop for squares, the most frequent ones.
 void powers(double* __restrict x, const double* __restrict y, std::size_t count) {
     if (std::all_of(y, y + count, [](double exponent) { return exponent == 2; }))
         for (std::size_t i = 0; i < count; ++i) x[i] *= x[i];
@@ -218,7 +217,7 @@ struct Evaluation {
     std::size_t dimension;
     std::vector<double>& stack;
 
-    /// Computes steps at some points; their results begin at number `base` of the stack.
+    /// Computes steps at some points; their results begin at index `base` of the stack.
     /// @return the results, valid until the next call
     const double* run(std::size_t first, std::size_t last, Places places, std::size_t base) {
         const std::size_t n = places.size();
@@ -248,8 +247,8 @@ struct Evaluation {
         return stack.data() + base;
     }
 
-    /// The step after which c ? a : b continues. If conditions differ, computes both branches at
-    /// their points, and puts the results in place of the conditions.
+    /// Returns the step after which c ? a : b continues. If the points' conditions differ, computes
+    /// each branch at its points, and replaces the conditions by the results.
     std::size_t choose(std::size_t at, Places places, std::size_t conditions) {
         const std::size_t n = places.size(), otherwise = steps[at].index;
         const double* const c = stack.data() + conditions;
@@ -283,7 +282,7 @@ double value_of(std::span<const FormulaStep> all, std::size_t first, std::size_t
     std::vector<double>& stack = stack_of_thread();
     if (stack.size() <= all.size()) stack.resize(all.size() + 1);
     double* top = stack.data();
-    double value = 0;  // the last one; those before it are below `top`
+    double value = 0;  // top of the stack; the values below it are stored before `top`
     for (std::size_t at = first; at < last; ++at) {
         const FormulaStep& step = all[at];
         if (step.kind == FormulaStep::number || step.kind == FormulaStep::coordinate) {

@@ -20,8 +20,7 @@
 
 namespace stipple {
 
-/// Names of coordinates in formulas, and the words for the values 0, 1, ... of coordinates with
-/// levels.
+/// Names of coordinates in formulas, and the words for values 0, 1, ... of coordinates with levels.
 class FormulaNames {
   public:
     void add(const std::string& name, std::vector<std::string> words = {});

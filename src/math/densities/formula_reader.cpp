@@ -56,7 +56,7 @@ class Reader {
 
     /// condition ? formula : condition ? formula : ... : formula
     void formula() {
-        std::vector<std::size_t> open;  // steps `otherwise`
+        std::vector<std::size_t> open;  // indices of `otherwise` steps
         for (binary(1); is("?"); binary(1)) {
             go_deeper();
             const std::size_t when = add({FormulaStep::when});
@@ -74,7 +74,7 @@ class Reader {
     /// Values joined by operators of at least this precedence.
     void binary(int least) {
         const std::size_t begin = begin_;
-        std::size_t operand = 0;  // position after its comparison operator
+        std::size_t operand = 0;  // start of a comparison's right operand; 0 if none
         value_with_sign();
         while (token_ == Token::sign && operation_ && operation_->binding >= least) {
             const FormulaOperation& operation = *operation_;
@@ -152,8 +152,8 @@ class Reader {
         return steps_.size() - 1;
     }
 
-    /// Appends an operation, or computes it if it is one of numbers. Comparisons remain, because
-    /// inequalities are read from the steps.
+    /// Appends an operation, or its value if its operands are numbers. Keeps comparisons, which
+    /// affine_inequalities() reads from the steps.
     void apply(const FormulaOperation& operation) {
         const auto last = std::span(steps_).last(operation.arguments == 1 ? 1 : 2);
         const bool compares = operation.binding > 0 && operation.binding <= comparison_binding;
@@ -340,7 +340,7 @@ class Reader {
     const FormulaNames* names_;
     std::vector<FormulaStep> steps_;
     std::size_t depth_ = 0;
-    std::size_t parentheses_ = 0;  ///< not yet closed
+    std::size_t parentheses_ = 0;  ///< number of open parentheses
 
     // The current token
     Token token_ = Token::end;
@@ -348,9 +348,9 @@ class Reader {
     std::size_t end_ = 0;
     FormulaStep value_{FormulaStep::number};
     const FormulaOperation* operation_ = nullptr;  ///< of a function or an operator
-    std::optional<std::size_t> named_;             ///< coordinate with the name of the token
-    std::optional<std::size_t> before_;            ///< of the token before it
-    std::optional<std::size_t> left_;  ///< of the one before that, if == or != is between them
+    std::optional<std::size_t> named_;             ///< coordinate that the token names
+    std::optional<std::size_t> before_;            ///< coordinate that the previous token names
+    std::optional<std::size_t> left_;              ///< coordinate left of == or != before the token
 };
 
 }  // namespace

@@ -99,8 +99,7 @@ class GuideTable {
     [[nodiscard]] double end(std::size_t i) const { return sums_[i]; }
     [[nodiscard]] double width(std::size_t i) const { return sums_[i] - begin(i); }
 
-    /// Index of the interval that contains w >= 0; for w >= total, the last interval that is not
-    /// empty.
+    /// Index of the interval that contains w >= 0; for w >= total, of the last nonempty interval.
     [[nodiscard]] std::size_t at(double w) const {
         const double inside = std::min(w, most_);
         const std::size_t bucket = buckets_.of(inside);
@@ -112,8 +111,7 @@ class GuideTable {
     double most_ = 0;  ///< the largest number below the total
     Buckets buckets_;
     std::vector<std::uint32_t> starts_;
-    /// Power of two above the number of sums in any bucket, or few_sums if that is smaller.
-    std::size_t few_ = few_sums;
+    std::size_t few_ = few_sums;  ///< result of fill_guide(): limit for the search of fixed length
 };
 
 }  // namespace stipple

@@ -15,14 +15,14 @@ namespace {
 
 constexpr std::size_t most_pieces = std::size_t{1} << 20;
 constexpr std::size_t first_pieces = 97;  // a prime, so that it does not divide likely periods
-constexpr std::size_t fewest_probes = std::size_t{1} << 16;  // minimum number of probes
+constexpr std::size_t fewest_probes = std::size_t{1} << 16;
 
 /// A piece with samples of f at 0, 1/4, 1/2, 3/4 and 1.
 struct Sampled {
     double low;
     double high;
     std::array<double, 5> f;
-    bool gap = false;  ///< the table gives the piece no mass
+    bool gap = false;  ///< result of has_gap(): the table gives the piece no mass
 
     [[nodiscard]] double width() const { return high - low; }
     [[nodiscard]] double at(double part) const { return low + part * width(); }
@@ -98,9 +98,8 @@ class LineTabulator {
         for (const Sampled& piece : pieces) add_probed(piece);
     }
 
-    /// Adds a piece after probing f at many points. If f differs from the table there by more than
-    /// the samples suggest, the piece is cut at all probes; otherwise a narrow feature would be
-    /// missed.
+    /// Adds a piece after probing f at many points. If f differs from the table by more than the
+    /// samples suggest, the piece is cut at all probes: a narrow feature would be missed otherwise.
     void add_probed(const Sampled& piece) {
         const std::size_t cuts = places_.size();
         const auto part = [&](std::size_t i) {
@@ -195,7 +194,7 @@ class LineTabulator {
             tolerance, error_ / mass_, piece.at(0.5));
     }
 
-    /// Whether f is 0 at a sample inside the piece, but not at all samples. A 0 at an end counts
+    /// True if f is 0 at a sample inside the piece, but not at all samples. A 0 at an end counts
     /// only if f is also 0 at a point close to that end.
     [[nodiscard]] bool has_gap(const Sampled& piece) const {
         constexpr double near = 0x1p-12;
@@ -320,8 +319,7 @@ namespace {
 
 constexpr std::size_t batch_size = 128;
 
-/// Data of the pieces that contain several numbers, by column, so that loops over it are
-/// vectorised.
+/// Data of the pieces for a batch of quantiles, by column, so that loops are vectorised.
 struct Batch {
     using Column = std::array<double, batch_size>;
     Column wanted, before, mass, f_low, f_high, x_low, width, last;

@@ -52,8 +52,7 @@ using BlockFunction = std::function<void(std::span<const double> at, std::span<d
 struct LineRange {
     double low = 0;
     double high = 1;
-    /// Jumps and corners of the density between low and high, in increasing order.
-    std::vector<double> breaks = {};
+    std::vector<double> breaks = {};  ///< jumps and corners between low and high, increasing
 };
 
 /// Tabulates f. `what` names it in messages: "--density: 1/x". @throws Error(usage) if f is
@@ -65,8 +64,7 @@ std::vector<LinePiece> tabulate_line(const std::string& what, const BlockFunctio
 /// Checks a value of a density. @throws Error(usage) if it is negative or not finite
 void require_density(const std::string& what, std::span<const double> place, double value);
 
-/// Largest difference of the values at 0, 1/4, 1/2, 3/4 and 1 from the line between the first and
-/// last.
+/// Largest difference of values at 0, 1/4, 1/2, 3/4, 1 from the line between the first and last.
 double largest_bend(const std::array<double, 5>& f);
 
 /// Fraction t of a piece's width, from its lower end, that contains the fraction r of its mass, for

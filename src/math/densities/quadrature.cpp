@@ -10,13 +10,11 @@
 namespace stipple {
 namespace {
 
-/// Nodes in [0, 1]; those in [-1, 0) are mirror images. Every second one is a node of the Gauss
-/// rule.
+/// Nodes in [0, 1]; those in [-1, 0) are mirror images. Every second one is a Gauss node.
 using Kronrod = boost::math::quadrature::gauss_kronrod<double, 15>;
 using Gauss = boost::math::quadrature::gauss<double, 7>;
 
-/// Integral by the 31-point rule, bisected up to `levels` times if the relative error exceeds
-/// `tolerance`.
+/// Integral by the 31-point rule, bisected up to `levels` times if relative error > `tolerance`.
 Estimate by_halves(const std::function<double(double)>& f, double low, double high, unsigned levels,
                    double tolerance) {
     Estimate sum;
@@ -33,8 +31,7 @@ struct Interval {
     bool operator<(const Interval& other) const { return sum.error < other.sum.error; }
 };
 
-/// Difference of f at an end of the interval from the parabola through the three nodes next to the
-/// end.
+/// Difference of f at an interval's end from the parabola through the three nodes next to it.
 double surprise(const std::array<double, 3>& x, const std::array<double, 3>& f, double end,
                 double value) {
     double expected = 0;

@@ -47,8 +47,7 @@ Estimate integrate_pieces(const std::function<double(double)>& f, std::span<cons
 struct Effort {
     double tolerance = 1e-10;
     std::size_t most = 200;
-    /// Initial number of intervals; odd, so that symmetry cannot hide a feature in the middle.
-    std::size_t first = 3;
+    std::size_t first = 3;  ///< initial intervals; odd, so that no feature in the middle is missed
 };
 
 Estimate integrate_interval(const std::function<double(double)>& f, double low, double high,

@@ -20,22 +20,18 @@ constexpr std::size_t probes_a_side = 512;  // probes along each axis
 constexpr std::size_t places_a_look = std::size_t{1} << 17;
 constexpr int most_looks = 8;
 
-/// A patch with samples of f on the lines x_low, middle and x_high, at 0, 1/4, 1/2, 3/4 and 1 of
-/// its height.
+/// A patch with samples of f at x_low, middle and x_high, at 0, 1/4, 1/2, 3/4 and 1 of its height.
 struct SampledPatch {
     double low;
     double high;
     std::array<std::array<double, 5>, 3> f;
     /// Largest known error of the table between the samples; 0 unless it exceeds expected().
     double hidden = 0;
-    /// Whether f is 0 at a sample inside or next to an edge, but not at all samples: the table gives
-    /// the patch no mass.
-    bool gap = false;
+    bool gap = false;  ///< result of has_gap(): the table gives the patch no mass
 
     [[nodiscard]] double at(double part) const { return low + part * (high - low); }
 
-    /// Bilinear interpolation of the corners' values, at fractions s of the width and t of the
-    /// height.
+    /// Bilinear interpolation between the corners, at fractions s of the width and t of the height.
     [[nodiscard]] double bilinear(double s, double t) const {
         return (1 - s) * ((1 - t) * f[0][0] + t * f[0][4]) + s * ((1 - t) * f[2][0] + t * f[2][4]);
     }
@@ -61,7 +57,7 @@ struct SampledPatch {
         return top;
     }
 
-    /// Error of a gap; otherwise 0.
+    /// Error from giving the patch no mass if it has a gap; otherwise 0.
     [[nodiscard]] double loss() const { return gap ? top() : 0; }
 
     /// Largest difference from the table that the samples suggest.
@@ -388,9 +384,9 @@ class StripTabulator {
         std::ranges::sort(strip.patches, {}, &SampledPatch::low);
     }
 
-    /// Error that halving along y may reduce. Hidden errors, and gaps that do not show along x, count
-    /// only if the patch is tall for its width: in flatter halves, no known point might show the
-    /// feature any more.
+    /// Error that halving along y may reduce. Hidden errors, and gaps that do not show along x,
+    /// count only if the patch is tall for its width: in flatter halves, no known point might show
+    /// the feature any more.
     [[nodiscard]] double bend_of(const SampledStrip& strip, const SampledPatch& patch) const {
         const bool tall =
             (patch.high - patch.low) * box_.extent(0) > strip.width() * box_.extent(1);
@@ -468,7 +464,7 @@ class StripTabulator {
             tolerance_, error_ / mass_, strip.low);
     }
 
-    /// Whether f is 0 at a sample inside the patch, but not at all samples. A 0 on an edge counts
+    /// True if f is 0 at a sample inside the patch, but not at all samples. A 0 on an edge counts
     /// only if f is also 0 at a point close to an edge.
     bool has_gap(const SampledStrip& strip, const SampledPatch& patch) {
         if (patch.top() == 0) return false;

@@ -71,8 +71,8 @@ class StripTable {
     [[nodiscard]] double density(double x, double y) const;
 
   private:
-    /// A patch, and the integrals over y from the strip's bottom to the patch's upper end, on both
-    /// sides of the strip.
+    /// A patch, and the integrals over y from the strip's bottom to the patch's top on both strip
+    /// sides.
     struct Patch {
         StripPatch shape;
         double left_sum;
