@@ -54,7 +54,6 @@ class Fields {
     std::uint64_t lift_;
 };
 
-/// Calls work(Fields<width>(base)).
 template <class Work>
 void with_fields(unsigned width, std::uint64_t base, const Work& work) {
     if (width == 4) return work(Fields<4>(base));
@@ -108,7 +107,7 @@ BaseNet::BaseNet(std::uint32_t base, std::size_t rows, std::size_t columns)
         for (std::uint64_t i = power; i < block_; i += power) ++ruler_[i - 1];
 }
 
-/// Packs every `stride`-th digit into words; the digits in the last word are aligned to its highest
+/// Packs every `stride`-th digit into words; those in the last word are aligned to its highest
 /// field.
 BaseNet::Words BaseNet::pack(std::span<const std::uint32_t> digits, std::size_t stride) const {
     const std::size_t fields = 64 / width_;

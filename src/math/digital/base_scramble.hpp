@@ -14,7 +14,7 @@
 // all of the infinitely many digits are scrambled.
 //
 // Shape    q below 2^53; base in [2, 65536].
-// Cost     nested scrambling: setup O(b log b), then O(b) per digit, eight coordinates at a time.
+// Cost     nested scrambling: setup O(b log b), then O(b) per digit, vectorised over points.
 // Promise  shift and matrix give integer multiples of b^-K, correctly rounded, with K =
 //          digits_of(b). A nested image is in the interior of its interval of length b^-L, where L
 //          is the number of digits of q. In base 2 it is the image by BinaryOwen. All results are

@@ -31,8 +31,7 @@ struct BinaryMatrices {
 };
 
 /// Matrices for Gray code order: point i is point gray(i) = i ^ (i / 2) of the given matrices, so
-/// that each step adds a single column. Any 2^m points from a multiple of 2^m on are the same set
-/// in a different order.
+/// that each step adds one column. Reorders any 2^m points that begin at a multiple of 2^m.
 BinaryMatrices in_gray_order(BinaryMatrices matrices);
 
 class BinaryNet {
@@ -65,10 +64,9 @@ class BinaryNet {
 
     std::size_t dimension_;
     int low_digits_ = 0;
-    std::size_t period_ = 1;          ///< copies of the high digits' sum, to fill whole vectors
-    std::vector<std::uint64_t> low_;  ///< sums for all values of the low digits, row by row
-    /// Row j: sum of the columns of the first j + 1 high digits.
-    std::vector<std::uint64_t> carries_;
+    std::size_t period_ = 1;              ///< copies of the high digits' sum, to fill whole vectors
+    std::vector<std::uint64_t> low_;      ///< sums for all values of the low digits, row by row
+    std::vector<std::uint64_t> carries_;  ///< row j: sum of columns 0, ..., j of the high digits
     std::vector<std::uint64_t> shift_;
 };
 

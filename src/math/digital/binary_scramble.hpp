@@ -33,8 +33,7 @@ std::uint64_t unit_to_fraction(double x);
 /// Random digital shift of a coordinate.
 std::uint64_t binary_shift(std::uint64_t seed, std::size_t coordinate);
 
-/// Columns of a random nonsingular lower triangular matrix. Column j is the image of digit j; digit
-/// j is bit 63 - j of a word.
+/// Columns of a random nonsingular lower triangular matrix; digit j of a word is bit 63 - j.
 std::array<std::uint64_t, 64> binary_matrix(std::uint64_t seed, std::size_t coordinate);
 
 /// Nested uniform (Owen) scrambling of one coordinate.
@@ -45,7 +44,6 @@ class BinaryOwen {
     /// Scrambles fractions in place; results have 53 digits.
     void apply(std::span<std::uint64_t> fractions) const;
 
-    /// Scrambles one fraction.
     [[nodiscard]] std::uint64_t of(std::uint64_t fraction) const;
 
     /// Keys of the hash, two for each group of five digits and two for the upper part as a whole.

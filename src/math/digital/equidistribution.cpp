@@ -13,7 +13,7 @@
 namespace stipple::equidistribution {
 namespace {
 
-/// Index of the interval that contains x, of `parts` equal ones of [0, 1]. As `parts` is below
+/// Index of the interval that contains x, of `parts` equal intervals of [0, 1]. As `parts` is below
 /// 2^31, the rounded product x * parts is off by less than one.
 std::int32_t cell_of(double x, double parts) {
     double cell = std::floor(x * parts);
@@ -47,8 +47,8 @@ std::vector<std::int32_t> steps_of(const Net& net) {
     return steps;
 }
 
-/// True if each point i > 0 equals point i - b^j plus step j, where j is the position of the lowest
-/// nonzero digit of i.
+/// True if each point i > 0 is point i - b^j plus step j, with j the position of i's lowest nonzero
+/// digit.
 bool is_linear(const Net& net, std::span<const std::int32_t> steps, const RunContext& run) {
     for (std::size_t i = 1; i < net.count; ++i) {
         if (i % (1 + 65536 / net.dimension) == 0) run.check_stop();

@@ -39,7 +39,7 @@ struct Net {
 /// and 1 is in the last interval.
 Net net_of(const PointSet& points, std::uint32_t base, std::size_t digits, const RunContext& run);
 
-/// Generating matrices: row(k, l)[j] is digit l + 1 of coordinate k of point b^j, minus that of
+/// Generating matrices: row(k, l)[j] is digit l + 1 of coordinate k of point b^j minus that of
 /// point 0.
 struct Matrices {
     std::uint32_t base = 2;
@@ -72,8 +72,7 @@ class Probe {
     virtual bool equal(std::size_t depth, std::size_t coordinate, std::size_t digits) = 0;
 };
 
-/// Uses the ranks of the matrices if given, otherwise counts points. Keeps references to all
-/// arguments.
+/// Uses the ranks of the matrices if given, else counts points. Keeps references to all arguments.
 std::unique_ptr<Probe> probe_of(const Net& net, const std::optional<Matrices>& matrices,
                                 const RunContext& run);
 

@@ -106,8 +106,7 @@ class StandardEngine {
 
 using MersenneTwister = StandardEngine<std::mt19937_64, ~std::uint64_t{0}>;
 
-/// Beware  seeds 0 and 19780503 give the same numbers; seeds from 2147483563 on would repeat
-/// others.
+/// Beware  seeds 0 and 19780503 give the same numbers; seeds above max_seed would repeat others.
 using Ranlux48 = StandardEngine<std::ranlux48, 2147483562>;
 
 }  // namespace stipple

@@ -18,8 +18,8 @@
 
 namespace stipple {
 
-/// Maximum number of entries in a table of images of low digits: 8 KiB, so that several tables fit
-/// the first-level cache.
+/// Maximum number of images of low digits in a table: 8 KiB, of which several fit into the
+/// first-level cache.
 constexpr std::uint64_t largest_digit_table = 1024;
 
 /// Radical inverses. For consecutive indices the reversed low digits come from a table, so that

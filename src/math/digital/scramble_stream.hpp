@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Streams of random numbers for scrambles. Their numbers differ from the stream numbers of
-// generators, all below 2^32, so that a scramble is independent of a generator with the same seed.
+// Streams of random numbers for scrambles. Their ids are at least 2^32 and those of generators are
+// smaller, so that a scramble is independent of a generator with the same seed.
 #pragma once
 
 #include <cstdint>

@@ -23,10 +23,10 @@ struct Strata {
     std::uint64_t parts = 1;  ///< low + width <= parts <= 2^53
 };
 
-/// Moves x[0], x[stride], ... from [0, 1) into strata: number j into stratum j.
+/// Moves x[j * stride] from [0, 1) into stratum j, for every j.
 void place_in_strata(Strata strata, double* x, std::size_t stride);
 
-/// Sets x[0], x[stride], ... to the middles of the strata.
+/// Sets x[j * stride] to the middle of stratum j, for every j.
 void place_in_middles(const Strata& strata, double* x, std::size_t stride);
 
 }  // namespace stipple
