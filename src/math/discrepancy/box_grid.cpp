@@ -51,7 +51,7 @@ std::vector<std::uint32_t> in_no_box(const PointSet& points, Family family) {
     return found;
 }
 
-/// Appends the distinct values of sorted items to `values`; returns the index there, by item.
+/// Appends the distinct values of sorted items to `values`; returns their indices by item.
 std::vector<std::uint32_t> ranks_among(const std::vector<Placed>& items,
                                        std::vector<double>& values, const RunContext& run) {
     std::vector<std::uint32_t> ranks;
@@ -96,7 +96,7 @@ Integer scaled(double x, unsigned places) {
 RankSet ranks_between(Interval ends, Side side, bool wraps) {
     const auto [lower, upper] = ends;
     const bool with_ends = (side == Side::closed) != wraps;
-    // Ends of the ranks inside, or of those outside if the interval wraps.
+    // First and last rank inside or, if the interval wraps, outside.
     const std::uint32_t low = wraps ? upper : lower;
     const std::uint32_t high = wraps ? lower : upper;
     const std::uint32_t first = with_ends ? low : low + 1;

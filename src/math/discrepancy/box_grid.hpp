@@ -53,7 +53,7 @@ struct Interval {
     std::uint32_t upper = 0;
 
     /// True if the interval contains 1 = 0 on the torus. An open interval with equal ends is the
-    /// circle without this end.
+    /// circle without that point.
     [[nodiscard]] bool wraps(Side side) const {
         return side == Side::open ? lower >= upper : lower > upper;
     }
@@ -70,7 +70,7 @@ struct RankSet {
     }
 };
 
-/// Ranks between the ends of an interval, or above its lower and below its upper end if it wraps.
+/// Ranks inside an interval: those between its ends or, if it wraps, all except those.
 RankSet ranks_between(Interval ends, Side side, bool wraps);
 
 /// Distinct coordinates on each axis, and the ranks of the points' coordinates among them. The
@@ -81,11 +81,11 @@ struct BoxGrid {
     Measure measure = Measure::discrepancy;
     std::uint64_t scale = 1;
     std::uint64_t weight = 1;
-    std::vector<std::vector<double>> values;        ///< by axis, ascending
+    std::vector<std::vector<double>> values;        ///< by axis: distinct coordinates, ascending
     std::vector<std::vector<std::uint32_t>> ranks;  ///< by axis: rank of every point
     /// By axis: points sorted by their coordinate; empty if boxes are anchored.
     std::vector<std::vector<std::uint32_t>> order;
-    std::vector<unsigned> digits;  ///< most binary digits of a coordinate, by axis
+    std::vector<unsigned> digits;  ///< by axis: maximum number of binary digits of a coordinate
     unsigned all_digits = 0;       ///< sum of `digits`
 
     [[nodiscard]] std::size_t dimension() const { return values.size(); }
@@ -94,8 +94,6 @@ struct BoxGrid {
 
     /// Bound on the rounding error of an excess computed in doubles; 0 if it is exact.
     [[nodiscard]] double rounding() const;
-
-    /// Length of an interval, as a double.
     [[nodiscard]] double length(std::size_t axis, Interval interval, Side side) const;
 
     /// Length of an interval times 2^digits[axis], exact.

@@ -83,7 +83,7 @@ class Search {
         }
     }
 
-    /// Replaces the work limit and the bounds of every peer by those of the first.
+    /// Replaces the work limit and the bounds of every peer by those of the first peer.
     void agree() {
         Packer packer;
         packer.put(limits_.work).put(known_.upper).put(known_.work);
@@ -97,8 +97,7 @@ class Search {
         offer_packed(first, known_.worst);
     }
 
-    /// Exchanges messages that end with two flags: whether this peer is out of time, and was
-    /// stopped.
+    /// Exchanges a message with all peers. It ends with two flags: out of time, and stopped.
     std::vector<std::string> speak(Packer& packer) {
         packer.put(limits_.late(run_)).put(run_.stop.stop_requested() || interrupted_);
         const auto all = peers_.exchange(packer.take());
@@ -110,7 +109,6 @@ class Search {
         return all;
     }
 
-    /// Explores this peer's share of the tasks.
     void explore_some(std::vector<Task>& tasks) {
         const auto size = static_cast<std::size_t>(peers_.size());
         const auto rank = static_cast<std::size_t>(peers_.rank());
@@ -154,7 +152,7 @@ class Search {
 
     [[nodiscard]] bool full() const { return cells_.size() >= most_cells_; }
 
-    /// Takes the cells with the highest bounds, and gives each a fraction of the remaining work.
+    /// Pops the cells with the highest bounds. A budget is at most an equal part of the work left.
     std::vector<Task> next_tasks() {
         constexpr std::size_t together = 64;
         const std::uint64_t size = grid_.count * grid_.dimension();
@@ -204,7 +202,7 @@ class Search {
     Peers& peers_;
     Known known_;
     std::vector<Cell> cells_;  ///< open cells; a heap with the highest bound first
-    std::size_t most_cells_;   ///< with so many open cells, cells are explored to the end
+    std::size_t most_cells_;   ///< at this number of open cells, cells are explored to the end
 
     bool interrupted_ = false;  ///< this peer was stopped
     bool stopped_ = false;      ///< some peer was stopped

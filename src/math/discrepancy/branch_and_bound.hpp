@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// Branch and bound over cells: sets of boxes. Cells with the highest bounds are explored first,
-// several at a time. Each is split, depth first, until its parts have bounds below a target, which
-// is between the known lower and upper bound of the worst value, or until its work budget is used
-// up. Remaining parts become open cells again. So the upper bound falls steadily, and cells that
-// only an exact answer needs are explored last. Cells explored together share their results only
-// when all are done, so that the search does not depend on the number of threads.
+// Branch and bound over cells: sets of boxes. Each round explores several cells with the highest
+// bounds. It splits a cell depth first until the bounds of its parts are at most a target, which
+// lies between the known lower and upper bound, or until the cell's work budget is used up.
+// Remaining parts become open cells again. So the upper bound falls steadily, and cells needed only
+// for an exact result are explored last. Cells of a round share results only at its end, so the
+// search does not depend on the number of threads.
 //
 // Peer processes divide the cells of a round among themselves and then exchange the results, so
-// that all have the same state before the next round. All other work is done by every peer. A
-// single process is its own only peer.
+// that all have the same state before the next round. Every peer does all other work. A single
+// process is its own only peer.
 #pragma once
 
 #include <deque>
@@ -22,8 +22,7 @@
 
 namespace stipple::discrepancy {
 
-/// A set of open or of closed boxes, given by ranges lo[i] to hi[i] of integers, whose meaning
-/// depends on the Problem.
+/// Set of open or closed boxes, given by ranges lo[i] to hi[i]; each Problem defines their meaning.
 struct Cell {
     Side side;
     double bound;  ///< upper bound on the values of its boxes
@@ -31,7 +30,6 @@ struct Cell {
     std::vector<std::uint32_t> hi;
 };
 
-/// A cell to explore, and the results of exploring it.
 struct Task {
     Cell cell;
     WorstBox worst;
@@ -62,13 +60,11 @@ class Problem {
     /// Explores a task; called concurrently by several threads.
     virtual void explore(Task& task) const = 0;
 
-    /// True if cells are explored only down to a target. This takes more work in total, especially
-    /// if exploring a cell is cheap compared with finding its points again, but bounds converge
-    /// steadily.
+    /// True if cells are explored only until their bounds reach a target. The bounds then converge
+    /// steadily, but with more work in total, as later rounds select the points of a cell again.
     [[nodiscard]] virtual bool by_stages(const Known& /*known*/) const { return false; }
 
-    /// Improves the known bounds by other searches. Called before every round; `work` limits the
-    /// total work of all rounds.
+    /// Improves the known bounds by other searches before each round; `work` limits the total work.
     virtual void look_around(Known& /*known*/, std::uint64_t /*work*/) {}
 };
 

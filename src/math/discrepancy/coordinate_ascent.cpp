@@ -88,8 +88,7 @@ class BoxAscent {
         return section;
     }
 
-    /// Replaces the box's interval on the axis by the worst one; returns false if nothing is
-    /// gained.
+    /// Replaces the box's interval on the axis by the worst one; returns false if none is worse.
     bool improve(std::size_t axis) {
         work_ += 2 * grid_.count + grid_.values[axis].size();
         const auto& ranks = grid_.ranks[axis];
@@ -131,7 +130,7 @@ class BoxAscent {
         return worst;
     }
 
-    /// Worst of all intervals on the axis, for the same `all`.
+    /// Worst of all intervals on the axis; `all` as in worst_end().
     [[nodiscard]] Found worst_ends(std::size_t axis, double all) {
         const auto& values = grid_.values[axis];
         line_.clear();
@@ -161,14 +160,13 @@ class BoxAscent {
     double excess_ = 0;
     GridBox box_;
     std::vector<std::uint32_t> outside_;  ///< by point: number of axes on which it is outside
-    /// Number of points inside on all other axes, by rank on the current axis.
+    /// By rank on the current axis: number of points that are inside on all other axes.
     std::vector<std::uint32_t> points_at_;
-    /// Ranks of these points on the current axis, ascending.
-    std::vector<std::uint32_t> line_;
+    std::vector<std::uint32_t> line_;  ///< ranks of points inside on all other axes, ascending
 };
 
-/// Maximum of d uniform numbers, those of `rng` from index `first` on; for large d, a single number
-/// with the distribution of the maximum.
+/// Maximum of the d uniform numbers of `rng` from index `first` on; for large d, one draw from the
+/// distribution of this maximum.
 double largest_of(std::size_t d, const Rng& rng, std::uint64_t first) {
     constexpr std::size_t many = 64;
     if (d > many) return real_power(rng.uniform(first), 1 / static_cast<double>(d));
@@ -177,8 +175,7 @@ double largest_of(std::size_t d, const Rng& rng, std::uint64_t first) {
     return most;
 }
 
-/// Draws a random anchored box. Its upper coordinates are distributed as u^(1/d), u uniform, so
-/// that its volume is not tiny.
+/// Draws a random anchored box with upper coordinates u^(1/d), u uniform: its volume is not tiny.
 GridBox random_anchored_box(const BoxGrid& grid, Side side, std::uint64_t stream) {
     const std::size_t d = grid.dimension();
     const Rng rng(0, stream);
@@ -192,8 +189,8 @@ GridBox random_anchored_box(const BoxGrid& grid, Side side, std::uint64_t stream
     return box;
 }
 
-/// Draws a random box. In many dimensions most random boxes have a negligible volume, so the first
-/// open box is the largest possible, and closed boxes span two points.
+/// Draws a random box. In many dimensions most random boxes have a negligible volume. So the first
+/// open box is the largest possible, and a closed box has two random points as opposite corners.
 GridBox random_free_box(const BoxGrid& grid, Side side, std::uint64_t stream) {
     const Rng rng(0, stream);
     const std::uint64_t one = rng.below(0, grid.count);
@@ -232,7 +229,7 @@ struct Plan {
         constexpr std::uint64_t effort = 1U << 24;  // comparisons: a fraction of a second
         const std::uint64_t size = grid.count * grid.dimension();
         constexpr std::uint64_t share = 8;    // ascents may use 1 / share of limits.work
-        constexpr std::uint64_t ascent = 16;  // open and closed ascent, in units of `size`
+        constexpr std::uint64_t ascent = 16;  // comparisons of two ascents in units of `size`
         const std::uint64_t affordable = limits.work / (share * ascent * size);
         const std::uint64_t wanted = std::clamp<std::uint64_t>(effort / size, 8, 200);
         starts = std::clamp<std::uint64_t>(affordable, 1, wanted);
@@ -257,7 +254,6 @@ void perturb(const BoxGrid& grid, const Rng& rng, std::uint64_t drawn, GridBox& 
 
 constexpr std::uint64_t draws_of_a_perturbation = 9;
 
-/// Walk number `number` of a threshold accepting search.
 void walk(const BoxGrid& grid, BoxAscent& ascent, Side side, std::uint64_t number, WorstBox& worst,
           const SearchLimits& limits, const RunContext& run) {
     constexpr std::uint64_t effort = 1U << 23;

@@ -30,17 +30,17 @@ class HighestKey {
     std::vector<std::uint32_t> keys_;
 };
 
-/// A range [first, last) of positions, and the ranks that bound it. On the torus it may extend past
-/// either end, by at most one turn.
+/// A range [first, last) of positions (see Sweep) and the ranks at its sides. On the torus the
+/// range may extend past 0 or n, by at most one turn of n positions.
 struct Width {
     std::int64_t first;
     std::int64_t last;
     Interval between;
 };
 
-/// Sweeps upwards over points. A point's position is its rank by the first coordinate. Its key is
-/// its rank by height among the points below the current one; on the torus, each point above the
-/// current one has a copy below it, one turn down.
+/// Sweeps upwards over points. A point's position is its index in grid.order[0]. Points below the
+/// current one have keys that increase with height; on the torus, so do the copies, one turn down,
+/// of the points above it.
 class Sweep {
   public:
     Sweep(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run)
@@ -132,8 +132,7 @@ class Sweep {
         worst_.offer({.side = Side::open, .axes = {across, along}}, 0);
     }
 
-    /// True if no rectangle of this width and a height up to `reach` is larger than the largest so
-    /// far.
+    /// True if no rectangle of this width and of height <= `reach` exceeds the largest so far.
     [[nodiscard]] bool is_too_small(const Width& width, double reach) const {
         return grid_.length(0, width.between, Side::open) * reach <= worst_.value() - margin_;
     }
@@ -171,8 +170,9 @@ class Sweep {
         }
     }
 
-    /// On the torus, offers the rectangle of full width from a point down to the next point. Sets
-    /// `width` to the circle cut at the next point; returns false if that is straight below.
+    /// On the torus, offers the rectangle of full width from a point down to the next one, the cut.
+    /// Sets `width` to the circle without the cut's rank; returns false if the cut is straight
+    /// below.
     bool cut_circle(std::uint32_t rank, std::uint32_t top, Width& width) {
         const std::uint32_t lowest = point_of(keys_.among(0, grid_.count));
         const std::uint32_t cut = grid_.ranks[0][lowest];
@@ -184,8 +184,8 @@ class Sweep {
         return cut != rank;
     }
 
-    /// Offers all rectangles that reach the ceiling of the square: over each range of positions,
-    /// the rectangle ends at the highest point, where the range is then split.
+    /// Offers all rectangles that reach the ceiling of the square. Over each range of positions,
+    /// the rectangle ends at the highest point, which then splits the range.
     void offer_below_ceiling() {
         const auto top = static_cast<std::uint32_t>(grid_.values[1].size() - 1);
         std::vector<Interval> open{{0, end_}};

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // The largest empty rectangle in the square or on the torus, from all maximal ones. A maximal
-// rectangle has a point on its upper side or reaches the ceiling of the square. Below each point,
-// the search starts with the full width. The highest point inside bounds this rectangle from below,
-// and bounds deeper ones from the left or the right. This repeats until a point is straight below
-// the first.
+// rectangle has a point on its upper side or reaches the ceiling of the square. The search below a
+// point starts with the full width and height. The highest point inside bounds one rectangle from
+// below, and all deeper ones from the left or the right. This repeats until the highest point
+// inside is straight below the first point.
 //
 // Cost    O((n + s) log n) with s <= n^2 maximal rectangles (about n log n for random points), in
 //         practice less, since narrow ones are skipped; O(n) memory.

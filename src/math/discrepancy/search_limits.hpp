@@ -14,7 +14,6 @@
 
 namespace stipple::discrepancy {
 
-/// Options of the searches.
 namespace limit {
 
 inline constexpr Param<Choice> method{
@@ -59,7 +58,7 @@ struct SearchLimits {
     double deadline = std::numeric_limits<double>::infinity();  ///< in seconds, by the run's clock
     double tolerance = 0;  ///< stops if upper - lower <= tolerance * lower
 
-    /// Comparisons that take about a quarter of a second.
+    /// Comparisons that take a quarter of a second to a second.
     static constexpr std::uint64_t short_work = 1U << 28;
 
     /// True if bounds may suffice: there is a tolerance, a deadline or a low limit of work.
@@ -88,10 +87,9 @@ enum class Ending { complete, tolerance, work, time, stopped };
 /// Proven bounds at the end of a search.
 struct SearchResult {
     WorstBox worst;
-    double upper;   ///< upper bound of all values
+    double upper;   ///< upper bound on the values of all boxes
     Ending ending;  ///< if `complete`, `worst` is the worst of all boxes
 
-    /// True if upper - lower <= tolerance * lower.
     [[nodiscard]] bool within(double tolerance) const {
         return upper - worst.value() <= tolerance * worst.value();
     }
@@ -101,8 +99,7 @@ struct SearchResult {
 SearchResult result_of_sweep(WorstBox worst, bool complete, const SearchLimits& limits,
                              const RunContext& run);
 
-/// Results common to all searches: lower, upper, exact, method; and value, if the bounds are within
-/// the tolerance.
+/// Results of all searches: lower, upper, exact, method; value if the bounds are within tolerance.
 Report report_of(const SearchResult& found, double tolerance, const char* method);
 
 /// Reports progress of a search between these bounds: the fraction of the gap closed, and the
@@ -126,7 +123,7 @@ class Limits {
 
     SearchLimits search;
     bool exact = false;    ///< only the exact value is accepted
-    bool bounded = false;  ///< proven bounds are accepted
+    bool bounded = false;  ///< bounds within the tolerance suffice
     double start = 0;
 
   private:

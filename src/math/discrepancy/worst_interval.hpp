@@ -45,8 +45,7 @@ struct LineTerms {
     bool torus;
 };
 
-/// Worst interval of a line of n points, with height(i) = h x_i and before(i) = w times the number
-/// of points before i.
+/// Worst interval of a line of n points, with height(i) = h x_i and before(i) = w #{before i}.
 template <class Number, class Height, class Before>
 WorstInterval<Number> worst_interval(std::size_t n, const LineTerms<Number>& line,
                                      const Height& height, const Before& before) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A cell is a set of boxes with arbitrary sides on the first axis, whose other sides begin and end
-// in given ranges. Let V be the product of the other sides, and arrange the points inside on the
-// other axes in a line along the first one. Then
+// A cell is a set of boxes with arbitrary sides on the first axis, whose sides on the other axes
+// begin and end in given ranges. Let V be the product of the sides on the other axes. The points
+// inside on all other axes, ordered along the first axis, are the cell's line. Then
 //
 //     open:    excess <= excess of the worst interval for the largest V and the points inside all
 //                        boxes of the cell (decided),
@@ -80,7 +80,7 @@ struct Range {
     [[nodiscard]] bool single() const { return first == last; }
 };
 
-/// Ranges of the ends of a cell's intervals on one axis, and of whether these wrap.
+/// Ranges of a cell's intervals on one axis: lower ends, upper ends, and wraps (0 or 1).
 struct Ends {
     Range lower;
     Range upper;
@@ -146,7 +146,7 @@ Integer exact_section(const BoxGrid& grid, const Cell& cell, Extent extent) {
     return product;
 }
 
-/// Entries of a line that count for a bound, and for each the number of points before it.
+/// Entries of a line that enter a bound, and the number of points before each of them.
 struct Counted {
     std::vector<std::uint32_t> entries;
     std::vector<std::uint32_t> before;
@@ -166,8 +166,7 @@ Counted counted_of(const Line& line, Side side) {
     return counted;
 }
 
-/// Worst interval on a cell's line, with its excess times 2^all_digits; `all` is the section times
-/// the scale.
+/// Worst interval on a cell's line, excess times 2^all_digits; `all` is the section times scale.
 WorstInterval<Integer> worst_on(const BoxGrid& grid, Side side, const Line& line,
                                 const Counted& counted, const Integer& all) {
     const auto height = [&](double x) { return Integer(all * scaled(x, grid.digits[0])); };
@@ -183,8 +182,7 @@ WorstInterval<Integer> worst_on(const BoxGrid& grid, Side side, const Line& line
         [&](std::size_t i) { return Integer(weight * counted.before[i]); });
 }
 
-/// Box of a cell that has a single interval on every axis except the first, with the interval
-/// `found` on the first one.
+/// Box of a cell with a single interval on every axis except the first, where it is `found`.
 GridBox box_of(const BoxGrid& grid, const Cell& cell, const Line& line, const Counted& counted,
                const WorstInterval<Integer>& found) {
     const auto rank = [&](std::size_t i) {
@@ -231,7 +229,7 @@ bool trim(Cell& cell) {
 /// Maximum number of points that are pruned together.
 inline constexpr std::size_t longest_stretch = 32;
 
-/// End of the run of decided points that begins at `first`; an undecided point is a run of its own.
+/// End of the run of decided points from `first` on; each undecided point is a run of its own.
 std::size_t end_of_stretch(const Line& line, std::size_t first) {
     const auto& entries = line.entries;
     const std::size_t most = std::min(first + longest_stretch, entries.size());
@@ -254,9 +252,9 @@ class CellBounder {
           weight_(static_cast<double>(grid.weight)),
           rounding_(grid.rounding()) {}
 
-    /// Shrinks and bounds the cell, given the line of a larger one, and sets `mine` to its line.
-    /// Offers the worst box of a cell that cannot be split. Returns false if no box can be worse
-    /// than the worst so far, or if there is nothing left to split.
+    /// Shrinks and bounds the cell, given the line of a larger cell; sets `mine` to the line of the
+    /// shrunk cell. Offers the worst box of a cell that cannot be split. Returns false if no box
+    /// can be worse than the worst so far, or if there is nothing left to split.
     bool tighten(Cell& cell, const Line& from, Line& mine) {
         work_ += 2 * grid_.dimension() * (from.entries.size() + 1);
         if (!trim(cell)) return false;
@@ -360,8 +358,8 @@ class CellBounder {
         return torus ? std::max(found.reversed, found.ordered - rest) : found.reversed;
     }
 
-    /// True if the exact bound exceeds the worst box's excess and the cell can be split; offers the
-    /// box of a cell that cannot.
+    /// True if the bound, computed exactly if rounding matters, exceeds the worst box's excess and
+    /// the cell can be split. Offers the box of a cell that cannot be split.
     bool check_exactly(const Cell& cell, const Line& line, double bound) {
         const bool single = cell.lo == cell.hi;
         if (!single && (rounding_ == 0 || bound > worst_.excess() + rounding_)) return true;
@@ -392,8 +390,7 @@ class CellBounder {
     /// The excess up to a point, P or Q of worst_interval.hpp, is a linear function of the section
     /// with slope x; P and Q differ by a constant. An interval ends at a high P and begins at a low
     /// Q. A point is dominated if another one is better for all sections: it suffices to compare it
-    /// with points of larger x at the smallest section, and with points of smaller x at the
-    /// largest.
+    /// with larger x at the smallest section, and with smaller x at the largest.
     void find_useful(const Stretch& stretch, const Line& line) {
         const std::size_t first = stretch.first;
         const std::size_t n = stretch.last - first;
@@ -462,13 +459,11 @@ class CellBounder {
 
     // State of the current cell.
     Side side_ = Side::open;
-    /// Ranks inside at least one box, for every axis except the first.
-    std::vector<RankSet> outer_;
-    std::vector<RankSet> inner_;  ///< ranks inside all boxes, for the same axes
+    std::vector<RankSet> outer_;  ///< by axis except the first: ranks inside at least one box
+    std::vector<RankSet> inner_;  ///< by axis except the first: ranks inside all boxes
     double largest_ = 0;          ///< scale times the section of the largest boxes
-    double smallest_ = 0;
-    /// Results of find_useful(), by position in the run.
-    std::array<bool, longest_stretch> useful_{};
+    double smallest_ = 0;         ///< scale times the section of the smallest boxes
+    std::array<bool, longest_stretch> useful_{};  ///< results of find_useful(), by index in the run
 };
 
 /// Cell of all boxes of one side. A cell has three ranges for every axis except the first: ranks
@@ -535,8 +530,7 @@ double factor(Family family, double dimension) {
            (1 + 0x1p-50);
 }
 
-/// Upper bound of a family's discrepancy from a bound of the star discrepancy, which may take the
-/// work and time `share`.
+/// Upper bound of a family's discrepancy from a star discrepancy search within the limits `share`.
 double star_bound(const PointSet& points, Family family, const SearchLimits& share,
                   const RunContext& run) {
     const auto d = static_cast<double>(points.dimension());
@@ -544,7 +538,7 @@ double star_bound(const PointSet& points, Family family, const SearchLimits& sha
     if (d < 2) return 1;
     const BoxGrid grid = anchored_grid(points, family, run);
     const double known = star::quick_bound(grid, run, factor(family, 1), factor(family, d));
-    const double promised = 0.6 * std::sqrt(d / n);  // approximate value for random points
+    const double promised = 0.6 * std::sqrt(d / n);  // approximate discrepancy of random points
     if ((d > 2 && factor(family, d) * promised >= 1) || run.stop.stop_requested()) return known;
     const SearchResult found =
         d > 2 ? star::find_worst(grid, share, run) : star::sweep_2d(grid, share, run);

@@ -22,7 +22,7 @@ SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const R
 SearchResult find_worst(const PointSet& points, const BoxGrid& grid, const SearchLimits& limits,
                         const RunContext& run);
 
-/// Upper bound computed in milliseconds, or longer for many points. Ignores stop requests.
+/// Upper bound on the discrepancy in milliseconds, longer for many points. Ignores stop requests.
 double quick_bound(const PointSet& points, Family family, const RunContext& run);
 
 }  // namespace stipple::discrepancy::extreme

@@ -28,8 +28,10 @@ namespace stipple::discrepancy::star {
 //     #/n <= min_k (v_k + E_k),          min_k v_k = p   =>  v >= p^d,
 //     #/n >= 1 - sum_k (1 - v_k + E_k),  mean_k v_k = s  =>  v <= s^d.
 //
-// So #/n - v is at most the maximum of p - p^d over p, and the largest E_k; v - #/n is at most the
-// maximum of s^d - max(0, 1 - d (1 - s)) over s, and the sum of all E_k:
+// So, with the maxima taken over p and s in [0, 1],
+//
+//     #/n - v <= max_p (p - p^d) + max_k E_k,
+//     v - #/n <= max_s (s^d - max(0, 1 - d (1 - s))) + sum_k E_k,
 //
 //     D <= max( (1 - 1/d) d^(-1/(d - 1)) + max_k E_k,  (1 - 1/d)^d + sum_k E_k ).
 //
@@ -48,7 +50,7 @@ struct AxisBox {
     }
 };
 
-/// Worst boxes of an axis.
+/// Worst box of each side, for one axis.
 struct Worst {
     AxisBox open;
     AxisBox closed;
@@ -151,8 +153,7 @@ std::vector<double> cuts_for(double delta, double dimension) {
     return cuts;
 }
 
-/// Coordinates of the finest grid with at most `most_corners` corners; empty if no corner would be
-/// in the interior of the cube.
+/// Coordinates of the finest grid with up to `most_corners` corners; empty if none is interior.
 std::vector<double> finest_cuts(std::size_t dimension, double most_corners) {
     const auto d = static_cast<double>(dimension);
     const double most = std::floor(exponential(logarithm(most_corners) / d) + 1e-9);
@@ -250,7 +251,7 @@ double cover_bound(const BoxGrid& grid, std::uint64_t most_corners, const RunCon
 //
 // and D* <= E(m, d) / 2^m. Closed boxes are limits of half-open ones.
 //
-// Shape   2^m points, m <= 31. Useful only in few dimensions: E grows as m^(d-1).
+// Shape   2^m points, m <= 30. Useful only in few dimensions: E grows as m^(d-1).
 // Cost    2^m for each of C(m - t + d - 1, d - 1) divisions; less for digital nets.
 // Source  the bound is by H. Niederreiter, "Random Number Generation and Quasi-Monte Carlo
 //         Methods", SIAM 1992, chapter 4, for base 2; the proof is above.

@@ -20,15 +20,12 @@
 //     open         step_j = (log hi_j - log y_j) (V(hi) - m) / (log V(hi) - log m)
 //     closed       step_j = (log y_j - log lo_j) v,            base = v (1 + log V(lo) - log v)
 //
-// This is the chord of exp between log m and log V(hi), so it holds if V(y) >= m. Any box worse
-// than the worst known value D has V(y) > m = D + O(lo)/n. For closed boxes V(y) >= base + sum
-// step:
-//
-//     tangent      step_j = (log y_j - log lo_j) v,            base = v (1 + log V(lo) - log v)
-//
-// This is the tangent of exp at log v, with v chosen between V(lo) and the largest V(y) of a box
-// worse than D. If V(lo) is 0, so are all steps. As the bounds are sums over the axes, y_j is
-// excluded if its term exceeds the smallest one by more than the bound exceeds D.
+// For open boxes, V(hi) - sum_j step_j is the chord of exp between log m and log V(hi), an upper
+// bound of V(y) if V(y) >= m. Any box worse than the worst known value D has V(y) > m = D +
+// O(lo)/n. For closed boxes, base + sum_j step_j is the tangent of exp at log v, a lower bound of
+// V(y). v is chosen between V(lo) and the largest V(y) of a box worse than D; if V(lo) is 0, all
+// steps are 0. As the bounds are sums over the axes, y_j is excluded if its term exceeds the
+// smallest one by more than the bound exceeds D.
 //
 // On each axis only the coordinates of the cell's points matter, the candidates: a worst open box
 // cannot grow without including a point (or reaches 1), and a worst closed one cannot shrink
@@ -90,8 +87,7 @@ STIPPLE_WIDE void compare(const std::int32_t* ranks, std::size_t size, std::int3
                     (ranks[i] >= lo ? undecided_unit : 0);
 }
 
-/// Assigns points to `axis` if reaching them from lo, at `price` a rank, costs more than on any
-/// axis before.
+/// Assigns points to `axis` if reaching them from lo, at `price` per rank, costs more than before.
 STIPPLE_WIDE void assign_to(const std::int32_t* ranks, std::size_t size, std::int32_t lo,
                             float price, std::int32_t axis, float* cost, std::int32_t* axes) {
     for (std::size_t i = 0; i < size; ++i) {
@@ -107,8 +103,7 @@ STIPPLE_WIDE void gather(const std::int32_t* from, const std::uint32_t* kept, st
     for (std::size_t i = 0; i < size; ++i) to[i] = from[kept[i]];
 }
 
-/// Sets terms[i] = (values[ranks[i]] - origin) * weight + counts[i] * inverse; returns their
-/// minimum.
+/// Sets terms[i] = (values[ranks[i]] - origin) * weight + counts[i] * inverse; returns the minimum.
 STIPPLE_WIDE double fill_terms(const double* values, const std::int32_t* ranks,
                                const std::int32_t* counts, std::size_t size, double origin,
                                double weight, double inverse, double* terms) {
@@ -158,8 +153,7 @@ class CellBounder {
         }
     }
 
-    /// Removes the lower half of the cell last tightened, on the axis chosen by split_axis(), and
-    /// returns this half.
+    /// Removes and returns the lower half of the cell last tightened, on split_axis().
     Cell split(Cell& cell) const {
         const std::size_t axis = split_axis(cell);
         const auto bins = std::span(bins_[axis]).subspan(dummy_bins);
@@ -300,8 +294,7 @@ class CellBounder {
             const std::int32_t at =
                 std::max(ranks[i] - start, static_cast<std::int32_t>(i % dummy_bins));
             auto& bin = bins[static_cast<std::size_t>(at)];
-            // A point of an open box that is undecided only on another axis is below lo, so it
-            // falls into a dummy bin.
+            // Open boxes: a point undecided only on another axis is below lo, so in a dummy bin.
             const bool assigned = side == Side::open ? state_[i] == 1 : axes_[i] == axis;
             bin = (bin + (assigned ? 1U : 0U)) | candidate;
         }
@@ -362,7 +355,7 @@ class CellBounder {
         return {share - weight * (1 + low - at) + margin, weight, margin};
     }
 
-    /// Bounds the cell `seen` and removes corners that the bound excludes from `cell`; returns
+    /// Bounds the cell `seen`, and removes from `cell` the corners that the bound excludes; returns
     /// false if it excludes all.
     bool reduce(const Cell& seen, Cell& cell) {
         const auto [before, weight, margin] = anchor(seen);

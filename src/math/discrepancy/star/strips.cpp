@@ -37,7 +37,7 @@ std::size_t padded(std::size_t size) { return (size + lanes - 1) / lanes * lanes
 /// Upper bound on the rounding error of a chord, in points.
 constexpr double margin = 0x1p-8;
 
-/// Padding: a line far below all others, even after points are added.
+/// Number c of padding: such a line stays far below all others, even after points are added.
 constexpr float no_line = 1e30F;
 
 /// Points in a group, divided by n^(1/3); found by trial.
@@ -91,19 +91,18 @@ STIPPLE_WIDE double pass(double* height, const double* y, const double* slope, s
     return top;
 }
 
-/// Adds `by` to a range of whole vectors.
 STIPPLE_WIDE void add_to_vectors(float* c, std::size_t size, float by) {
     for (std::size_t i = 0; i < size; i += lanes) store(c + i, load<Floats>(c + i) + by);
 }
 
-/// Adds `by` to c[from] and all numbers after it; `size` is a multiple of the vector length.
+/// Adds `by` to c[from], ..., c[size - 1]; `size` is a multiple of the vector length.
 void add_from(float* c, std::size_t from, std::size_t size, float by) {
     const std::size_t whole = padded(from);
     for (std::size_t i = from; i < whole; ++i) c[i] += by;
     add_to_vectors(c + whole, size - whole, by);
 }
 
-/// Adds `by` to all numbers before c[to].
+/// Adds `by` to c[0], ..., c[to - 1].
 void add_before(float* c, std::size_t to, float by) {
     const std::size_t whole = to / lanes * lanes;
     add_to_vectors(c, whole, by);
@@ -124,7 +123,6 @@ Chord chord(const Heights& ends, double z_low, double z_high) {
     return {low - slope * z_low + margin, slope};
 }
 
-/// Sweep over the boxes of one side.
 template <Side side>
 class Sweep {
   public:
@@ -273,7 +271,7 @@ class Sweep {
                      side == Side::open ? 1.0F : -1.0F);
     }
 
-    /// Prefetches the lines of a block, which are rarely cached, some time before they are used.
+    /// Prefetches the lines of a block, which are rarely in the cache, shortly before their use.
     void fetch(std::size_t u) const {
         constexpr std::size_t together = 64 / sizeof(float);  // numbers per cache line
         for (std::size_t k = row_[u]; k < row_[u + 1]; k += together) {

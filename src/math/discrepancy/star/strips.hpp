@@ -11,8 +11,8 @@
 //         + { n (Y_j - Y_j0) X_a0 - #[r < a0, j0 <= t < j] }
 //         + n (X_a - X_a0) (Y_j - Y_j0) - #[a0 <= r < a, j0 <= t < j].
 //
-// The last line is at most n times the widths of strip and block. Closed boxes are split likewise
-// at the block's last rank:
+// The last line is at most n times the product of the widths of strip and block. Closed boxes are
+// split likewise at the block's last rank:
 //
 //     #[r <= a, t <= j] - n X_a Y_j  =  #[r < a0, t < j1] - n X_a0 Y_J      (J = j1 - 1)
 //         + { #[a0 <= r <= a, t < j1] - n (X_a - X_a0) Y_J }
@@ -38,8 +38,7 @@
 
 namespace stipple::discrepancy::star {
 
-/// Groups of neighbouring ranks on one axis. Each has at most a given number of points and a given
-/// width, or is a single rank.
+/// Groups of neighbouring ranks of an axis: each is limited in points and width, or a single rank.
 struct Groups {
     std::vector<std::uint32_t> first;  ///< first rank of each group, then the number of ranks
 
@@ -62,8 +61,8 @@ struct Plane {
     double widest = 0;                     ///< maximum width of a group
     std::vector<Dot> dots;                 ///< sorted by `first`
     std::vector<std::uint32_t> dots_from;  ///< first dot of each strip, then n
-    std::vector<std::uint32_t> next;       ///< for each dot: next strip with a dot in its block
-    std::vector<std::uint32_t> first;      ///< for each block: first strip with a dot in it
+    std::vector<std::uint32_t> next;       ///< by dot: next strip with a dot in its block, or last
+    std::vector<std::uint32_t> first;      ///< by block: first strip with a dot in it, or last
 };
 
 /// Builds the plane; it keeps a reference to the grid.
