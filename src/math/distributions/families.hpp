@@ -28,7 +28,6 @@ struct MarginalParameter {
     bool whole = false;  ///< true if only integers are allowed
 };
 
-/// Parameter names with values.
 using NamedNumbers = std::vector<std::pair<std::string, double>>;
 
 /// Input of a family: all parameters that were given or have defaults, checked for their ranges.

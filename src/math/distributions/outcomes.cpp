@@ -8,7 +8,7 @@
 //
 // starting from the mode, computed to twice the precision of a double, and divided by their sum.
 //
-// Cost    32 bytes an outcome; tables include outcomes more than 1e-306 times as likely as the
+// Cost    40 bytes an outcome; tables include outcomes more than 1e-306 times as likely as the
 //         mode: a range of 75 standard deviations if there are many.
 // Source  R. J. Hyndman, Y. Fan, "Sample quantiles in statistical packages", The American
 //         Statistician 50 (1996) 361-365, doi:10.1080/00031305.1996.10473566: interpolation by
@@ -138,8 +138,7 @@ MarginalPtr Integers::between(double low, double high) const {
 
 namespace {
 
-/// Distribution on 0, ..., `last` from the ratios up(k) = p(k + 1) / p(k), without extremely
-/// unlikely outcomes.
+/// Distribution on 0, ..., `last` from the ratios up(k) = p(k + 1) / p(k), without rare outcomes.
 template <class Ratio>
 MarginalPtr by_ratios(std::string_view name, double mode, double last, const Ratio& up) {
     constexpr double rare = 1e-306;

@@ -16,8 +16,7 @@ namespace stipple {
 /// A discrete distribution, which can be truncated exactly.
 class DiscreteMarginal : public Marginal {
   public:
-    /// Restricts to the outcomes in [low, high]; null if there are none, or if they are too
-    /// unlikely.
+    /// Restricts to the outcomes in [low, high]; null if there are none or they are too unlikely.
     [[nodiscard]] virtual MarginalPtr between(double low, double high) const = 0;
 };
 
