@@ -34,7 +34,6 @@ struct DestroyPlan {
     }
 };
 
-/// Owns an FFTW plan.
 class OwnedPlan {
   public:
     /// @param make creates the plan; called with the planner locked

@@ -13,8 +13,7 @@ namespace {
 
 constexpr std::uint64_t block = std::uint64_t{1} << 18;  // number of cells per block
 
-// Adding 1.5 x 2^52 units rounds a number to a multiple of the unit, and puts the multiple into the
-// last bits of the double.
+// Adding 1.5 x 2^52 units rounds to a multiple of the unit, which is in the double's last bits.
 constexpr double coarse_unit = 0x1p-21;
 constexpr double fine_unit = 0x1p-64;
 constexpr double coarse_magic = 0x1.8p52 * coarse_unit;

@@ -8,8 +8,8 @@
 //
 //     s(xi) = w sinh(r) / (r I0(beta)),    r^2 = beta^2 - (pi w xi)^2.
 //
-// This holds for xi in cycles per cell in the requested band |xi| <= band, except for the error
-// from the window's aliases.
+// xi is in cycles per cell, |xi| <= band. The error of the quotient comes from the window's
+// aliases.
 //
 // The window is tabulated as polynomials in a point's position u between two grid points, so that
 // spreading needs no Bessel functions.
@@ -71,8 +71,7 @@ class KaiserBessel {
 /// The narrowest window with error() <= tolerance; the widest one if there is none.
 KaiserBessel window_for(double tolerance, double band);
 
-/// A window as polynomials of u. The unit interval is cut into enough pieces that short polynomials
-/// suffice.
+/// A window as polynomials of u, on enough pieces of the unit interval that low degrees suffice.
 class WeightTable {
   public:
     explicit WeightTable(const KaiserBessel& window);

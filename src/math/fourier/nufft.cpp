@@ -19,8 +19,8 @@ namespace {
 double cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
                const KaiserBessel& window) {
     const auto width = static_cast<double>(window.width());
-    // Mean for machines with vectors of four and of eight doubles, where one of eight counts as
-    // two, so that the choice does not depend on the machine.
+    // Mean over machines with vectors of four and of eight doubles, where one of eight costs as
+    // much as two of four: the choice must not depend on the machine.
     const double vectors = std::ceil(width / 4) / 2 + std::ceil(width / 8);
     const double d = static_cast<double>(dimension);
     const double cells = real_power_of(side, dimension);
@@ -195,8 +195,7 @@ FourierSums FourierSummation::finish(Planning planning, const RunContext& run) {
 
 namespace {
 
-/// exp(-2 pi i f x) for f = 0..last. The product f x is split to remove its integer part before
-/// rounding.
+/// exp(-2 pi i f x) for f = 0..last. Splits f x to remove its integer part before rounding.
 void phases(double x, std::size_t last, std::complex<double>* out) {
     const double high = static_cast<double>(static_cast<float>(x));
     for (std::size_t f = 0; f <= last; ++f) {

@@ -26,8 +26,7 @@ constexpr std::size_t round_of_streams = streams * stream_chunk;
 constexpr std::size_t sorting_block = std::size_t{1} << 12;  // number of points that fit the caches
 constexpr std::size_t tiles_at_a_time = 128;  // tiles of one colour before the next colour
 
-/// Maximum number of points summed in a tile's buffer before it is added to the grid: shorter sums
-/// have smaller rounding errors.
+/// Maximum number of points summed in a tile's buffer: shorter sums have smaller rounding errors.
 constexpr std::size_t fold_after = 512;
 
 /// Number of points sorted at a time: about the number of cells, between 2^20 and 2^22.
@@ -53,7 +52,7 @@ class Spreader::Tiling {
         for (std::size_t t = 0; t <= along_; ++t) starts_.push_back(t * grid.side / along_);
         for (std::size_t t = 0; t < along_; ++t)
             widest_ = std::max(widest_, starts_[t + 1] - starts_[t]);
-        assert(widest_ <= 4096);  // find_places() has 12 bits for them
+        assert(widest_ <= 4096);  // find_places() stores cell offsets in 12 bits
         common_ = {.side = static_cast<double>(grid.side),
                    .tiles = static_cast<double>(along_),
                    .shift = window.width() % 2 == 1 ? 0.5 : 0.0,
@@ -215,7 +214,7 @@ void Spreader::spread_colour(std::size_t colour, std::size_t first, std::size_t 
     });
 }
 
-/// Spreads the points of a tile through a buffer of zeros, and clears it again.
+/// Spreads a tile's points through `buffer`, which must be 0 and is cleared again.
 void Spreader::spread_tile(std::size_t number, double* buffer, const RunContext& run) const {
     const SpreadTile tile = tiling_->describe(number);
     std::size_t count = 0;  // points in the buffer

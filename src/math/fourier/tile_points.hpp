@@ -23,7 +23,6 @@ class TilePoints {
     /// @param capacity maximum number of points, at most 2^26.
     TilePoints(std::size_t tiles, std::size_t numbers, std::size_t capacity);
 
-    /// Adds rows to their tiles.
     void add(const double* rows, const std::uint32_t* tile_of, std::size_t count);
 
     /// Calls visit(rows) for the tile's points, at most `block` of them at a time.
@@ -58,8 +57,7 @@ class TilePoints {
     Rows room_;
     std::vector<List> lists_;
     std::vector<std::uint32_t> next_;  ///< by block: the next block in its list
-    /// Number of blocks in use; block 0 is never used, so that 0 means none.
-    std::uint32_t used_ = 1;
+    std::uint32_t used_ = 1;  ///< blocks in use; block 0 is never used, so that 0 means none
 };
 
 }  // namespace stipple

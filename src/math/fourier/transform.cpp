@@ -41,8 +41,8 @@ void transform_rows(const CellGrid& grid, std::span<const double> factors, Plann
     });
 }
 
-/// Lines across the memory: for each of `planes`, `side` rows of `width` complex numbers, with
-/// `stride` complex numbers between the starts of rows.
+/// Columns to transform: `planes` planes of `side` rows with `width` complex numbers, and `stride`
+/// complex numbers from the start of one row to the next.
 struct Columns {
     const std::complex<double>* values;
     std::size_t planes;

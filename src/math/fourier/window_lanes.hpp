@@ -102,9 +102,8 @@ struct Chunk {
     alignas(64) Coordinates<Dimension> t;  ///< position in a piece of the window's table
     alignas(64) std::array<std::array<std::int32_t, chunk>, Dimension> piece;
     alignas(64) std::array<std::int32_t, chunk> corner;  ///< first cell in the buffer
-    alignas(
-        /// Values of the window for each point and axis, after `margin` zeros.
-        64) double values[chunk][Dimension][margin + vectors_of(Fours) * lanes];
+    /// Window values for each point and axis, after `margin` zeros.
+    alignas(64) double values[chunk][Dimension][margin + vectors_of(Fours) * lanes];
 
     Chunk() {
         for (auto& point : values)
@@ -169,7 +168,6 @@ STIPPLE_INLINE void evaluate_all(const SpreadTile& tile, std::size_t count,
         }
 }
 
-/// Adds weight * values to a row of the buffer.
 template <std::size_t Count>
 STIPPLE_INLINE void add_row(double* row, double weight, const V (&values)[Count]) {
     for (std::size_t v = 0; v < Count; ++v) {
