@@ -5,8 +5,7 @@
 
 namespace stipple {
 
-/// Returns (...(first x + second) x + ...) x + last. Has no loop, so that compilers vectorise loops
-/// over it.
+/// Returns (...(first x + second) x + ...) x + last, without a loop: loops over it vectorise.
 template <class... Coefficients>
 [[gnu::always_inline]] constexpr double horner(double x, double first, Coefficients... rest) {
     double sum = first;

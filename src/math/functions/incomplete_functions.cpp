@@ -111,7 +111,7 @@ DoubleDouble gamma_log_power(double a, double x) {
            DoubleDouble{-log_excess(a), 0};
 }
 
-/// True if a is large and x far from a, where Boost's powers lose digits and Temme's expansion does
+/// True if a > 200 and x is far from a, where Boost's powers lose digits and Temme's expansion does
 /// not apply.
 bool far_out(double a, double x) {
     return a > 200 && x > 0 && (x - a) * (x - a) > 19 * a && x < no_end;

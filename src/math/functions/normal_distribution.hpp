@@ -10,10 +10,11 @@
 //     beyond        erfc(x) = exp(-x^2) (1 / sqrt(pi) - P(x^-2) / x^2) / x
 //
 // with rational functions A, C and P. exp(-x^2) is exp(-z^2 / 2), whose exponent is computed to
-// twice the working precision. Quantiles, the x with Phi(x) = p, use other rational functions:
+// twice the working precision. Quantiles, the x with Phi(x) = p, use other rational functions B, D
+// and E. With q = p - 1/2 and r = sqrt(-log min(p, 1 - p)),
 //
-//     q = p - 1/2  where |q| <= 0.425,  x = q B(0.180625 - q^2);    else, with m = min(p, 1 - p),
-//     r = sqrt(-log m),  x = -+ D(r - 1.6) where r <= 5,  x = -+ E(r - 5) beyond.
+//     x = q B(0.180625 - q^2)   if |q| <= 0.425,
+//     x = sign(q) D(r - 1.6)    else, if r <= 5,        x = sign(q) E(r - 5)   beyond.
 //
 // Shape   any z that is not NaN, also infinite; p from 1e-300 up to 1 - 2^-53, the largest double
 //         below 1; 1 - p is exact above 1/2.
@@ -102,7 +103,7 @@ inline double normal_quantile(double q, double m) {
     return std::abs(q) <= 0.425 ? middle : tail;
 }
 
-/// min(p, 1 - p), at least 1e-300. A p of 0 or 1 gives 2^-54 or 2^-55.
+/// min(p, 1 - p), at least 1e-300; 2^-54 for p = 0, 2^-55 for p = 1.
 inline double bounded_tail(double p) {
     const double m = std::min(p, 1 - p);
     const double least = p < 0.5 ? 0x1p-54 : 0x1p-55;

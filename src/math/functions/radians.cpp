@@ -19,7 +19,7 @@ constexpr std::array<std::uint64_t, 20> per_radian = {
     0xfbcbc462d6829b47, 0xdb4d9fb3c9f2c26d, 0xd3d18fd9a797fa8b, 0x5d49eeb1faf97c5e,
     0xcf41ce7de294a4ba, 0x9afed7ec47e35742, 0x1580cc11bf1edaea, 0xfc33ef0826bd0d87};
 
-/// 64 of these digits, from number `first` on; digits before the point are 0.
+/// 64 binary digits of 1 / (2 pi), from number `first` on; digits before the point are 0.
 std::uint64_t digits_from(int first) {
     if (first <= -64) return 0;
     if (first < 0) return per_radian[0] >> -first;

@@ -20,10 +20,10 @@ inline CosSin cos_sin_radians(double angle) {
     return {cos, angle < 0 ? -sin : sin};
 }
 
-/// Cosine and sine of any finite angle within 2 units in the last place, also of huge angles and next
-/// to multiples of pi / 2. Slower than cos_sin_radians().
-/// Source  M. H. Payne, R. N. Hanek, ACM SIGNUM Newsletter 18 (1983) 19-24: only the digits of
-///         1 / (2 pi) that do not give whole turns are multiplied.
+/// Cosine and sine of any finite angle within 2 units in the last place, also of huge angles and
+/// next to multiples of pi / 2. Slower than cos_sin_radians().
+/// Source  M. H. Payne, R. N. Hanek, ACM SIGNUM Newsletter 18 (1983) 19-24: only the digits of 1 /
+///         (2 pi) that do not give whole turns are multiplied.
 CosSin precise_cos_sin(double angle);
 
 /// The angle in [0, pi] with cosine x in [-1, 1].

@@ -37,8 +37,7 @@ inline double nth_root(double value, std::size_t degree) {
 
 namespace detail {
 
-/// A number written as t 8^(third - 341) with t in [1/2, 4), and a first guess of the cube root of
-/// t.
+/// A number t 8^(third - 341) with t in [1/2, 4), and a first guess of the cube root of t.
 struct CubeRootStart {
     double t;
     double root;          ///< guess of the cube root of t, relative error 2e-7
