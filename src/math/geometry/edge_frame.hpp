@@ -60,8 +60,7 @@ class EdgeFrame {
     /// Lengths of e, f and f - e.
     [[nodiscard]] const std::array<double, 3>& lengths() const { return lengths_; }
 
-    /// Bound on how far rounding moves a generated point: 16 epsilon (largest coordinate) (longest
-    /// edge / smallest height).
+    /// Bound on how far rounding moves a point: 16 epsilon * size * longest edge / smallest height.
     [[nodiscard]] double slack() const { return slack_; }
 
   private:

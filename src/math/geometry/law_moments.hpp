@@ -54,7 +54,6 @@ AxialMoments direction_moments(double z, double zz, double zzz);
 Moments axial_moments(const AxialMoments& shape, const Frame& frame, const Vector3& center = {},
                       double size = 1);
 
-/// Moments of independent coordinates.
 Moments independent_moments(std::span<const LineMoments> coordinates);
 
 /// Moments of the uniform distribution on a triangle in any number of dimensions.

@@ -37,8 +37,7 @@ Bezout bezout(std::int64_t a, std::int64_t b) {
 
 constexpr Int128 modulo(Int128 a, Int128 m) { return (a % m + m) % m; }
 
-/// Returns the v with u x v = n whose component along u is closest to u / 2 or -u / 2; nullopt if
-/// there is no v.
+/// Returns the v with u x v = n whose component along u is closest to u / 2 or -u / 2, or nullopt.
 std::optional<Vector> partner(Vector u, std::int64_t n) {
     const Bezout unit = bezout(u.x, u.y);
     const std::int64_t g = unit.divisor;
@@ -91,8 +90,6 @@ TorusPacking rows_of(const Basis& basis, std::int64_t n) {
             .shift = static_cast<std::uint64_t>(shift),
             .shortest = norm(u)};
 }
-
-// ---------------------------------------------------------------- on a rectangle
 
 /// Lengths of integer vectors on a rectangle.
 struct Metric {
@@ -174,8 +171,8 @@ TorusPacking densest_torus_packing(std::uint64_t n) {
     auto high = static_cast<std::uint64_t>(1.1547005383792515 * static_cast<double>(n));
     while (Wide{3} * (high + 1) * (high + 1) <= Wide{4} * n * n) ++high;
     while (Wide{3} * high * high > Wide{4} * n * n) --high;
-    // Each range [low, high] of |u|^2 is expected to contain that of some lattice. The search ends,
-    // since (1, 0) is the shortest u of a lattice.
+    // Each range [low, high] of |u|^2 is expected to contain that of some lattice. The search ends
+    // at the latest at u = (1, 0), the shortest vector of some lattice.
     const std::uint64_t width = 4 * floor_root(n, 2);
     for (;;) {
         const std::uint64_t low = high > width ? high - width : 1;
