@@ -19,7 +19,6 @@
 
 namespace stipple {
 
-/// The region on which an integrand is defined.
 enum class Region {
     cube,        ///< [0, 1]^d
     hemisphere,  ///< unit vectors with z >= 0, measured by solid angle

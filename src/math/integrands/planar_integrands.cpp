@@ -32,7 +32,6 @@ DrawStream draws(const Values& values, std::uint64_t what) {
     return DrawStream(Rng(static_cast<std::uint64_t>(values[placing_seed]), stream + what));
 }
 
-/// Random direction in the plane.
 PlanePair direction(DrawStream& numbers) {
     const auto [cos, sin] = cos_sin_turns(numbers.next());
     return {cos, sin};
@@ -57,8 +56,6 @@ Integrand half_plane(std::size_t, const Values& values) {
     return {[p, n](auto x) { return n[0] * (x[0] - p[0]) + n[1] * (x[1] - p[1]) <= 0 ? 1.0 : 0.0; },
             signed_area(clipped(unit_square(), p, n))};
 }
-
-// ---------------------------------------------------------------- soft shadow
 
 Vector3 sum(const Vector3& a, double s, const Vector3& b, double t, const Vector3& c) {
     return {a[0] + s * b[0] + t * c[0], a[1] + s * b[1] + t * c[1], a[2] + s * b[2] + t * c[2]};

@@ -40,8 +40,6 @@
 namespace stipple {
 namespace {
 
-// ---------------------------------------------------------------- Gaussian
-
 constexpr Param<double> width{.name = "width",
                               .fallback = 0.25,
                               .low = 1e-3,
@@ -59,8 +57,6 @@ Integrand smooth_gaussian(std::size_t dimension, const Values& values) {
             },
             whole_power(axis, dimension)};
 }
-
-// ---------------------------------------------------------------- zone plate
 
 constexpr Param<double> phase{.name = "phase",
                               .fallback = 100,
@@ -93,8 +89,6 @@ Integrand zone_plate(std::size_t, const Values& values) {
             (1 + (one * one).real()) / 2};
 }
 
-// ---------------------------------------------------------------- Owen
-
 constexpr Param<std::int64_t> order{
     .name = "order",
     .fallback = 2,
@@ -117,8 +111,6 @@ Integrand owen(std::size_t dimension, const Values& values) {
             },
             0};
 }
-
-// ---------------------------------------------------------------- Sobol' g
 
 constexpr Param<Numbers> numbers{
     {.name = "a",
@@ -145,8 +137,6 @@ Integrand sobol_g(std::size_t dimension, const Values& values) {
             },
             1};
 }
-
-// ---------------------------------------------------------------- on other domains
 
 Integrand sky(std::size_t, const Values&) {
     return {[](auto w) { return w[2] * (1 + 2 * w[2]) / 3; }, 7 * std::numbers::pi / 9};
