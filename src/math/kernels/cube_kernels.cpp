@@ -31,8 +31,6 @@ namespace {
 
 constexpr double unit_round = 0x1p-53;
 
-// ---------------------------------------------------------------- periodic
-
 constexpr double wave = 2 * std::numbers::pi * std::numbers::pi;
 constexpr double crest = 1 + wave / 6;  ///< K(x, x) on an axis
 
@@ -62,8 +60,6 @@ class Periodic final : public Kernel {
   private:
     std::size_t dimension_;
 };
-
-// ---------------------------------------------------------------- Gaussian
 
 STIPPLE_WIDE void add_squares(const double* x, double y, std::size_t count, double* sums) {
     for (std::size_t j = 0; j < count; ++j) sums[j] += (x[j] - y) * (x[j] - y);
@@ -108,8 +104,6 @@ class Gaussian final : public Kernel {
     std::size_t dimension_;
     double h_;
 };
-
-// ---------------------------------------------------------------- Matern
 
 /// Coefficients of a polynomial p(a) of degree 2.
 using Parabola = std::array<double, 3>;
@@ -199,10 +193,7 @@ class Matern final : public Kernel {
     Parabola g_;
 };
 
-// ---------------------------------------------------------------- L2 discrepancies
-
-/// Kernel on one axis as a function of x, for fixed y: at[0] + at[1] x + at[2] x^2 + at[3] |x -
-/// 1/2| + sigma |x - y|.
+/// Kernel on one axis for fixed y: at[0] + at[1] x + at[2] x^2 + at[3] |x - 1/2| + sigma |x - y|.
 struct AxisCurve {
     std::array<double, 4> at;
     double sigma;
@@ -270,7 +261,6 @@ class OfL2 final : public Kernel {
   private:
     static double number(std::int64_t coefficient) { return static_cast<double>(coefficient); }
 
-    /// Kernel on one axis as a function of x, for this y.
     [[nodiscard]] AxisCurve curve_at(double y) const {
         const double bend = std::abs(y - 0.5);
         AxisCurve curve{

@@ -113,8 +113,7 @@ struct SquaredDiscrepancy {
 SquaredDiscrepancy squared_from_mean(const Kernel& kernel, const Columns& points,
                                      const RunContext& run);
 
-/// Squared discrepancy of the points from target points. @throws Error(limit) as
-/// squared_from_mean()
+/// Squared discrepancy of the points from target points. @throws Error(limit) as above
 SquaredDiscrepancy squared_from_points(const Kernel& kernel, const Columns& points,
                                        const Columns& target, const RunContext& run);
 

@@ -55,8 +55,7 @@ class FixedSum {
 
   private:
     /// Splits values into multiples of 2^-high_places and remainders in multiples of 2^-low_places,
-    /// and sums both. Adding 1.5 * 2^52 units puts the nearest integer into the low bits of a
-    /// double.
+    /// and sums both. Adding 1.5 * 2^52 units puts the nearest integer into a double's low bits.
     STIPPLE_WIDE static std::array<std::uint64_t, 2> parts_of(const double* values,
                                                               std::size_t count, double scale) {
         const double high_round = std::ldexp(1.5, 52 - high_places);
