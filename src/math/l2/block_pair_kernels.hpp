@@ -31,7 +31,7 @@ STIPPLE_INLINE V load(const double* from) {
     return v;
 }
 
-/// A number in all lanes.
+/// Vector with x in all lanes.
 STIPPLE_INLINE V same(double x) { return x - V{}; }
 
 /// x with its sign changed if `by` is negative.
@@ -149,7 +149,7 @@ struct Minimum {
             where_less(mine, other, rows(row + block_width), columns(block + block_width)),
             where_less(mine, other, rows(row + 2 * block_width), columns(block + 2 * block_width))};
     }
-    /// Factors of a block's points if these precede all points of the other block.
+    /// Per-point factors, for a block whose points all precede those of the other block.
     STIPPLE_INLINE static Compensated<V> own(const double* block) {
         return {load(block + block_width), load(block + 2 * block_width)};
     }

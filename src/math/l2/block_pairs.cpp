@@ -12,9 +12,8 @@
 namespace stipple::l2 {
 namespace {
 
-constexpr std::size_t group = 4;  ///< number of rows that are processed together
-/// Number of blocks whose sums stay in lanes before they are added to the total.
-constexpr std::size_t batch_size = 16;
+constexpr std::size_t group = 4;        ///< number of rows that are processed together
+constexpr std::size_t batch_size = 16;  ///< blocks summed in lanes before adding to the total
 
 /// Property of a factor that all pairs of points of two blocks share.
 enum class Known {
@@ -93,7 +92,7 @@ class Rows {
         pair_.rows = table.block(block);
     }
 
-    /// Sum over the points of blocks [first, last).
+    /// Sum over the pairs with the points of blocks [first, last).
     DoubleDouble sum_with(std::size_t first, std::size_t last, const RunContext& run) {
         LaneSums sums;
         for (std::size_t b = first; b < last; ++b) {
@@ -113,7 +112,7 @@ class Rows {
         return known_in_order(rows, columns);
     }
 
-    /// Finds the factors that are the same for all points of the two blocks.
+    /// Sorts the factors by what is Known of them for the pair with block b.
     void compare_with(std::size_t b) {
         pair_.columns = table_.block(b);
         pair_.full = (std::max(block_, b) + 1) * block_width <= table_.count();

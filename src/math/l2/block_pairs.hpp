@@ -25,8 +25,7 @@ struct AxisConstants {
     double base = 0;
     double base_error = 0;
     double offset = 0;  ///< amount added to the base, and subtracted from the factor again
-    /// |x - y| at the vertex of a parabola, or in the middle of its range for linear factors.
-    double vertex = 0;
+    double vertex = 0;  ///< |x - y| at a parabola's vertex, or at mid-range for linear factors
 };
 
 /// Blocks of points, stored by column; the last column is 1 for points and 0 for padding. Work is
@@ -49,7 +48,8 @@ class BlockTable {
     [[nodiscard]] bool any_order() const { return any_order_; }
     [[nodiscard]] std::size_t height() const { return factors_.size() * columns_ + 1; }
 
-    /// Stores the numbers of point i for a factor, as many as the form has columns per factor.
+    /// Stores the numbers of point i for a factor, one per column; `position` extends the block's
+    /// range.
     void put(std::size_t i, std::size_t factor, const double* numbers, double position);
 
     [[nodiscard]] const double* block(std::size_t b) const {

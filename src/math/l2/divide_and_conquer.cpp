@@ -33,7 +33,7 @@
 // Beware  in four dimensions three products per kernel would need 81 weights per point, so that the
 //         sum over all pairs is faster.
 // Promise the same result for any number of threads. `error` bounds the rounding errors, including
-//         those of coordinates that are not multiples of 2^-63, most of which are below 2^-10.
+// those of coordinates that are not multiples of 2^-63, all of which are below 2^-11.
 // Source  S. Heinrich, Math. Comp. 65 (1996) 1621-1633, doi:10.1090/S0025-5718-96-00756-4;
 //         K. Frank, S. Heinrich, J. Complexity 12 (1996) 287-314.
 
@@ -216,7 +216,7 @@ class ThreeProducts {
           distance_(fixed_of(axis.distance)),
           root_(fixed_of(sqrt(Quad(-axis.product)))) {}
 
-    /// Uses x y = c c' + (c + c') / 2 + 1/4.
+    /// Own terms if the product is c c' instead of x y = c c' + x / 2 + y / 2 - 1/4.
     static AxisFactor::Curve own_of(const AxisFactor& axis) {
         AxisFactor::Curve own = axis.own;
         own[0] -= axis.product / 8;
@@ -231,8 +231,7 @@ class ThreeProducts {
 
 struct Item {
     std::array<std::uint64_t, max_axes> at;
-    /// For one product per kernel: product of the factors on the axes halved so far.
-    Fixed weight = unity;
+    Fixed weight = unity;     ///< product of the factors on the axes halved so far; OneProduct only
     std::uint32_t point;      ///< index in the order of the last axis
     std::uint32_t upper = 0;  ///< bit set of the axes on which the point was in an upper half
 
@@ -455,7 +454,7 @@ double most_of(const std::vector<Axis>& axes) {
     return most;
 }
 
-/// Returns (mean over both) - 2/n sum of means + n^-2 sum over pairs.
+/// Squared discrepancy: mean over both points - 2/n sum of means + n^-2 sum over pairs.
 template <class Axis>
 Square square_of(const PointSet& points, Kind kind, const AxisWeights& weights,
                  const RunContext& run) {

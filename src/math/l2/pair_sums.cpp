@@ -66,7 +66,7 @@ DoubleDouble on_grid(const DoubleDouble& a, double step) {
     return {high, (a.high - high) + a.low};
 }
 
-/// Computation of the factor of an axis, divided by a constant scale, from terms of both points.
+/// Computes an axis factor, divided by a constant scale, from terms of both points.
 class FactorForm {
   public:
     /// @param two_sided true if the two minima of the centered kernel form one factor
@@ -268,7 +268,6 @@ class Mean {
     std::array<DoubleDouble, 4> of_;
 };
 
-/// Terms of all points from FactorForm::put, and related sums.
 struct Numbers {
     std::vector<PointNumbers> of;
     std::size_t factors = 0;
@@ -307,7 +306,7 @@ Scaling scaling_of(const Numbers& numbers, const std::vector<const FactorForm*>&
     Scaling scaling;
     const std::size_t n = numbers.of.size() / numbers.factors;
     std::vector<double> sizes(n, 0);     // binary logarithms of scaled products
-    std::vector<double> smallest(n, 0);  // their minima so far
+    std::vector<double> smallest(n, 0);  // minima of `sizes` so far
     for (std::size_t f = 0; f < numbers.factors; ++f) {
         double most = -std::numeric_limits<double>::infinity();
         double largest = most;

@@ -103,8 +103,7 @@ void add_features(std::array<LongSum, 3>& sums, Uint128 a, const Features& phi) 
     sums[2].add_product(a, phi.from_middle);
 }
 
-/// Sums over points in order of t: i is the number of points before, T and W are the sums of t and
-/// w over these i points.
+/// Sums over points in order of t; i counts the points before, T and W sum t and w over these.
 struct AxisSums {
     std::array<std::array<LongSum, 3>, 4> moments;  ///< phi_p(t) phi_q(w), q > 0
     std::array<LongSum, 3> alone;                   ///< phi_p(t), p > 0
@@ -206,8 +205,8 @@ void merge(const Item* items, std::size_t left, std::size_t n, Item* out, LongSu
     }
 }
 
-/// Sorts items in order of t by w. Returns the sum of t_i (w_i - w_k) over all points k before i
-/// with w_k <= w_i.
+/// Sorts items, given in order of t, by w. Returns the sum of t_i (w_i - w_k) over all points k
+/// before i with w_k <= w_i.
 Integer dominance(std::vector<Item>& items, const RunContext& run) {
     const std::size_t n = items.size();
     std::vector<Item> other(n);
@@ -263,7 +262,7 @@ PlaneSums::Symmetric along(const AxisSums& sums, const std::array<Integer, 4>& a
     PlaneSums::Symmetric v;
     v[0] = 4 * sums.ranked.value() + 2 * sum_t - 2 * n * sum_t;
     for (std::size_t q = 1; q < 4; ++q) {
-        // sum_i t_i W_i with weights phi_q, from the sums T before each point
+        // Sum over i of t_i times the sum of phi_q(w_k) over the points k before i.
         const Integer running = sum_t * alone[q] - sums.behind[q - 1].value() - with_t[q];
         v[q] = 2 * running + 2 * sums.ranked_by[q - 1].value() + 2 * with_t[q] - alone[q] * sum_t -
                n * with_t[q];

@@ -40,7 +40,7 @@ PlaneSums plane_sums(const PointSet& points, const RunContext& run);
 double plane_square(const PlaneSums& sums, std::size_t dimension, Kind kind,
                     const AxisWeights& weights);
 
-/// True if divide_square() accepts such points.
+/// True if divide_square() accepts points of this dimension with this kernel.
 bool divides(std::size_t dimension, Kind kind, const AxisWeights& weights);
 
 /// True if divide_square() is faster than pair_square().
