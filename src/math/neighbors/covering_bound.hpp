@@ -189,9 +189,8 @@ class CoveringBound {
     double tolerance_;
     std::vector<Candidate> points_;
     std::array<std::size_t, most + 1> basis_{};
-    /// Inverse of the basis; the last column is the basic solution.
-    std::array<Row, most + 1> inverse_{};
-    Row prices_{};  ///< dual variables; the last one is the bound
+    std::array<Row, most + 1> inverse_{};  ///< inverse of the basis; last column: basic solution
+    Row prices_{};                         ///< dual variables; the last one is the bound
 };
 
 }  // namespace stipple

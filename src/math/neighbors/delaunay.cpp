@@ -178,8 +178,7 @@ Delaunay::Delaunay(std::span<const double> rows, const RunContext& run) {
     }
 }
 
-/// Starts with two triangles of a distant square, whose corners are never nearest to a position
-/// near the points.
+/// Starts with two triangles of a square so distant that its corners are never nearest.
 void Delaunay::start(std::span<const double> rows) {
     double reach = 0;
     for (const double x : rows) reach = std::max(reach, std::abs(x));

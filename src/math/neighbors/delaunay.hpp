@@ -53,11 +53,9 @@ class Delaunay {
 
   private:
     static constexpr std::uint32_t none = 0xffff'ffff;
-    /// Number of corners of the enclosing square, which are numbered before the points.
-    static constexpr std::uint32_t outer = 4;
+    static constexpr std::uint32_t outer = 4;  ///< enclosing square's corners, numbered first
 
-    /// Corners in counterclockwise order; across[k] is the triangle beyond the edge opposite to
-    /// corner k.
+    /// Corners in counterclockwise order; across[k]: triangle beyond the edge opposite corner k.
     struct Triangle {
         std::array<std::uint32_t, 3> corners;
         std::array<std::uint32_t, 3> across;

@@ -3,8 +3,8 @@
 // Nearest other point of every point, by a grid: for sets that fill their box about evenly.
 //
 // Shape    2 <= n < 2^32 points, d = 1, 2, 3; all in the box, including its upper faces.
-// Cost     O(n), searching cells with two points on average. Points crowded into few cells are left
-//          to a KdTree, after sorting them.
+// Cost     O(n), searching cells with two points on average. If points are crowded into few cells,
+//          returns nullopt after sorting them; a KdTree is faster then.
 // Promise  the result of KdTree::all_nearest, to the last bit: of equally near points, the one with
 //          the lowest index.
 #pragma once

@@ -187,7 +187,6 @@ class KdTree::Builder {
         return axis;
     }
 
-    /// Splits a node's points into halves.
     void split(std::size_t node) {
         const auto [first, last] = tree_.range_of(node);
         const std::size_t middle = tree_.range_of(2 * node).last;

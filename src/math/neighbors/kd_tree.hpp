@@ -47,7 +47,7 @@ struct Neighbor {
 /// Rule by which the distances along the axes are combined.
 enum class Norm { euclidean, manhattan, chebyshev };
 
-/// Squared distance of two positions, as above.
+/// Squared distance of two positions, by the formula at the top.
 double squared_distance(std::span<const double> p, std::span<const double> q,
                         const std::vector<double>& sides, Norm norm);
 

@@ -36,7 +36,6 @@
 
 namespace stipple {
 
-/// A point or vector in the plane.
 struct Vec2 {
     double x = 0;
     double y = 0;
@@ -90,8 +89,8 @@ class VoronoiCell {
   private:
     friend class PeriodicVoronoi;
     struct Candidate {
-        double squared;  ///< squared distance
-        Vec2 seen;
+        double squared;
+        Vec2 seen;  ///< position relative to the cell's site
         std::uint32_t site;
     };
     void measure_reach();
@@ -126,15 +125,14 @@ class PeriodicVoronoi {
     /// Sets a weight for each site; empty for equal weights.
     void set_weights(std::span<const double> weights);
 
-    /// Resets the cell to that of site i at `at` before other sites cut it.
+    /// Resets `cell` to the rectangle of site i at `at`, not yet cut by other sites.
     static void start(Vec2 sides, bool torus, Vec2 at, std::uint32_t i, VoronoiCell& cell);
 
     /// Computes the cell of a site. Stops early if no corner has a squared distance of at least
     /// `needed`. Thread-safe.
     void cut_cell(std::size_t i, VoronoiCell& cell, double needed = 0) const;
 
-    /// Moves `at` by whole sides into [0, side) on the torus; otherwise to the nearest wall if
-    /// outside.
+    /// Moves `at` into [0, side) by whole sides on the torus; otherwise to the nearest wall.
     [[nodiscard]] Vec2 inside(Vec2 at) const;
 
     /// Vector from one position to another, the shortest one on the torus.

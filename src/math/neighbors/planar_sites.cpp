@@ -72,8 +72,7 @@ void PlanarCells::cut_by_neighbors(std::size_t i, VoronoiCell& cell) const {
         if (std::max(std::abs(planes[k].neighbor.x), std::abs(planes[k].neighbor.y)) < least)
             planes[k].neighbor = {least * outward[k].x, least * outward[k].y};
     const std::size_t count = sites_.count();
-    // Also uses the neighbours of copies: after rounding, a site may be joined only to a copy of i,
-    // not to i itself.
+    // Also uses neighbours of copies: rounding may join a site to a copy of i, but not to i itself.
     for (std::size_t copy = 0; copy < turns_.size(); ++copy)
         triangles_->for_neighbors(copy * count + i, [&](std::size_t neighbor) {
             if (copy > 0 && neighbor >= count) return;

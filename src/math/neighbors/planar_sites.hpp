@@ -26,7 +26,7 @@
 
 namespace stipple {
 
-/// Mean number of points in a grid cell up to which the grid is faster.
+/// Mean number of points in a point's grid cell up to which the grid is faster.
 constexpr double crowded_cell = 24;
 
 struct PlanarSites {
@@ -45,7 +45,6 @@ struct PlanarSites {
 PlanarSites planar_sites(std::span<const double> rows, const Box& box, bool torus,
                          const RunContext& run);
 
-/// Voronoi cells of the sites.
 class PlanarCells {
   public:
     /// Keeps a reference to the sites. @throws Error(limit, cancelled)

@@ -117,7 +117,6 @@ Profile profile(std::size_t period, double width) {
     return result;
 }
 
-/// Filled and empty cells with their energies.
 class Pattern {
   public:
     Pattern(std::size_t width, std::size_t height, double stretch, std::uint64_t seed)
@@ -138,7 +137,7 @@ class Pattern {
     void set(std::size_t cell, bool filled) { filled_[cell] = filled; }
     [[nodiscard]] bool filled(std::size_t cell) const { return filled_[cell] != 0; }
 
-    /// Recomputes the energies of all cells.
+    /// Sets sigma to `width` cells and recomputes all energies.
     void use_sigma(double width, const RunContext& run) {
         constexpr double unit = 0x1p38;
         across_ = profile(width_, width / stretch_);
