@@ -24,8 +24,7 @@ double dot(const PolytopePoint& a, const PolytopePoint& b, std::size_t d) {
     return sum;
 }
 
-/// Parts of a face below this fraction of its volume are dropped, because random numbers
-/// practically never reach them.
+/// Parts of a face below this fraction of its volume are dropped: random numbers hardly reach them.
 constexpr double least_share = 1e-14;
 
 /// Rounding error of a point's distance from a plane.
@@ -60,7 +59,6 @@ void break_off(double* xi, double* rest, std::size_t m, std::size_t rows) {
 
 }  // namespace
 
-/// Builds the faces from the vertices and their planes.
 class FaceTree::Builder {
   public:
     Builder(FaceTree& tree, const PolytopeVertices& polytope) : tree_(tree), of_(polytope) {}
@@ -83,7 +81,6 @@ class FaceTree::Builder {
         PolytopePoint normal;  ///< unit vector within the face, from the facet towards the apex
         double offset;         ///< normal . x on the facet
     };
-    /// Data of a face that was built.
     struct Built {
         double volume;           ///< k-dimensional volume of a face of dimension k
         std::uint32_t heaviest;  ///< facet with the largest volume; for a vertex the vertex itself
@@ -212,8 +209,7 @@ FaceTree::FaceTree(const PolytopeVertices& polytope) : d_(polytope.dimension) {
     Builder(*this, polytope).build();
 }
 
-/// Selects the facet of a face for u in [0, 1); replaces u by its relative position in the facet's
-/// share.
+/// Selects the facet of a face for u in [0, 1); replaces u by its relative position in that share.
 const FaceTree::Facet& FaceTree::chosen(std::size_t face, double& u) const {
     const auto all = facets(face);
     std::size_t i = 0;

@@ -50,8 +50,7 @@ class FaceTree {
     /// `rows` <= some_rows numbers
     void forward(std::span<double* const> columns, std::size_t rows) const;
 
-    /// Maps a point of the polytope to the cube; a point slightly outside by rounding is treated as
-    /// the nearest point inside.
+    /// Maps a point of the polytope to the cube; points just outside by rounding count as inside.
     void inverse(const double* point, double* cube) const;
 
     [[nodiscard]] Moments moments() const;

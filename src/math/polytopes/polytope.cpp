@@ -110,8 +110,7 @@ FaceTree checked_tree(PolytopeVertices vertices) {
     return tree;
 }
 
-/// Rounding error in the distance of a plane from a point on it: the plane's coefficients and the
-/// box's ends are rounded.
+/// Rounding error of a point's distance from a plane: plane coefficients and box ends are rounded.
 double rounding_of(const PolytopePlane& plane, const Box& frame) {
     double sum = 1;
     for (std::size_t k = 0; k < frame.dimension(); ++k) {

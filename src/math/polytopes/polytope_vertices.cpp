@@ -99,7 +99,6 @@ class DoubleDescription {
         keep(slack);
     }
 
-    /// Returns the vertices and facets.
     PolytopeVertices take() {
         check_flat();
         const std::vector<std::size_t> facets = this->facets();
@@ -137,8 +136,7 @@ class DoubleDescription {
                  flat_);
     }
 
-    /// Keeps the vertices that are not beyond the last plane, and adds one for each edge that
-    /// crosses it.
+    /// Keeps the vertices not beyond the last plane, and adds one for each edge that crosses it.
     void keep(const std::vector<DoubleDouble>& slack) {
         const double near = on_plane * planes_.back().length;
         std::vector<Vertex> kept;
