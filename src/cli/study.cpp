@@ -165,10 +165,10 @@ bool reads_table(const StudyRequest& request) {
 void summarize_table(const StudyRequest& request, const RunContext& run) {
     const std::string& path = request.inputs[0];
     refuse_options(request,
-                   "analyze,config,count,curves,dimension,keys,overwrite,parameters,resume,seed,"
+                   "analyze,config,count,curves,dimension,overwrite,parameters,resume,seed,"
                    "seeds,time-limit,warp",
                    "does not apply to the table of a study");
-    auto study = read_study(io::read_bytes(path, run), io::source_name(path), run);
+    auto study = read_study(io::read_bytes(path, run), io::source_name(path), run, request.keys);
     if (!study) fail(ErrorKind::input, "{}: is not the table of a study", path);
     note_unfinished(path, run);
     const std::string to = output_of(request);

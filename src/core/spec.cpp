@@ -65,6 +65,8 @@ class SpecParser {
         if (!accept('=')) return {std::move(name), "true"};
         if (!accept('[')) {
             std::string value = take_until(",[]");
+            if (std::ranges::count(value, '(') > std::ranges::count(value, ')'))
+                complain(fmt::format("a value with commas is written in brackets, {}=[...]", name));
             if (at_ < text_.size() && text_[at_] != ',') complain("',' or the end is expected");
             return {std::move(name), std::move(value)};
         }

@@ -7,7 +7,9 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "report/latex.hpp"
+#include "study/sweep.hpp"
 #include "study/table_columns.hpp"
+#include "study/unit_runner.hpp"
 
 namespace stipple {
 namespace {
@@ -226,23 +228,55 @@ std::string StudySummary::comparisons(TableStyle style, const SummaryOptions& op
 
 namespace {
 
+/// Selects the rows of a table that --keys asks for.
+class RowChoice {
+  public:
+    explicit RowChoice(std::span<const std::string> wanted)
+        : wanted_(wanted), met_(wanted.size()) {}
+
+    bool takes(const std::string& measure, const std::string& key) {
+        if (wanted_.empty() || key.empty()) return true;  // measures without results have no key
+        const auto analyzer = std::ranges::find(
+            analyzers::all(), measure.substr(0, measure.find(':')), &Analyzer::name);
+        const bool known = analyzer != analyzers::all().end();
+        bool any = false;
+        for (std::size_t i = 0; i < wanted_.size(); ++i)
+            if (is_meant(key, {known ? without_name(wanted_[i], *analyzer) : wanted_[i]}))
+                any = met_[i] = true;
+        return any;
+    }
+
+    void require_all(const std::string& source) const {
+        const auto none = std::ranges::find(met_, false);
+        if (none != met_.end())
+            fail(ErrorKind::usage, "--keys: {} has no result '{}'", source,
+                 wanted_[static_cast<std::size_t>(none - met_.begin())]);
+    }
+
+  private:
+    std::span<const std::string> wanted_;
+    std::vector<bool> met_;
+};
+
 /// Rows of a study's table; a summary after them is ignored.
 /// @param begin index of the first row
 StudySummary rows_in(std::span<const std::string_view> lines, std::size_t begin,
-                     const StudyTable& table, const std::string& source, const RunContext& run) {
+                     const StudyTable& table, const std::string& source, const RunContext& run,
+                     RowChoice& choice) {
     StudySummary summary;
     for (std::size_t i = begin; i < lines.size(); ++i) {
         run.check_stop();
         if (lines[i].empty() || lines[i].starts_with("{\"table\":")) break;
         const auto row = table.parse(lines[i]);
         if (!row) fail(ErrorKind::input, "{}:{}: this is not a row of a study", source, i + 1);
-        summary.add(*row);
+        if (choice.takes(row->measure, row->key)) summary.add(*row);
     }
     return summary;
 }
 
 std::vector<MeanRow> means_in_summary(std::span<const std::string_view> lines, std::size_t begin,
-                                      TableStyle style, const std::string& source) {
+                                      TableStyle style, const std::string& source,
+                                      RowChoice& choice) {
     const auto columns = cells_of(MeanRow());
     std::vector<MeanRow> rows;
     for (std::size_t i = begin; i < lines.size(); ++i) {
@@ -253,6 +287,7 @@ std::vector<MeanRow> means_in_summary(std::span<const std::string_view> lines, s
                            });
         if (!whole)
             fail(ErrorKind::input, "{}:{}: this is not a row of a study's summary", source, i + 1);
+        if (!choice.takes(row.measure, row.key)) rows.pop_back();
     }
     return rows;
 }
@@ -260,7 +295,8 @@ std::vector<MeanRow> means_in_summary(std::span<const std::string_view> lines, s
 }  // namespace
 
 std::optional<std::variant<std::vector<MeanRow>, StudySummary>> read_study(
-    std::string_view bytes, const std::string& source, const RunContext& run) {
+    std::string_view bytes, const std::string& source, const RunContext& run,
+    std::span<const std::string> keys) {
     const std::string_view table = without_preface(bytes);
     const std::string_view first = table.substr(0, table.find('\n'));
     const bool csv = !first.starts_with('{');
@@ -275,9 +311,15 @@ std::optional<std::variant<std::vector<MeanRow>, StudySummary>> read_study(
     const auto above = static_cast<std::size_t>(
         std::count(bytes.begin(), bytes.end() - static_cast<std::ptrdiff_t>(table.size()), '\n'));
     const std::size_t begin = above + (csv ? 1 : 0);
-    if (summary) return means_in_summary(lines, begin, style, source);
     const bool seconds = first.find("generate_seconds") != first.npos;
-    return rows_in(lines, begin, StudyTable(style, seconds), source, run);
+    RowChoice choice(keys);
+    std::variant<std::vector<MeanRow>, StudySummary> study;
+    if (summary)
+        study = means_in_summary(lines, begin, style, source, choice);
+    else
+        study = rows_in(lines, begin, StudyTable(style, seconds), source, run, choice);
+    choice.require_all(source);
+    return study;
 }
 
 std::optional<std::vector<MeanRow>> read_means(std::string_view bytes, const std::string& source,

@@ -126,9 +126,12 @@ StudySummary summary_of(std::span<const StudyValue> values);
 bool is_error_key(std::string_view key);
 
 /// Reads a study's table as StudySummary, or its summary as MeanRows; nullopt if it is neither.
-/// @throws Error(input) for a line that is not a row; Error(cancelled)
+/// @param keys results to keep, as KEY or ANALYZER.KEY; empty: all
+/// @throws Error(input) for a line that is not a row; Error(usage) for a key that no row has;
+/// Error(cancelled)
 std::optional<std::variant<std::vector<MeanRow>, StudySummary>> read_study(
-    std::string_view bytes, const std::string& source, const RunContext& run);
+    std::string_view bytes, const std::string& source, const RunContext& run,
+    std::span<const std::string> keys = {});
 
 /// As read_study(), but reduces a table to its means, without bootstrap intervals.
 std::optional<std::vector<MeanRow>> read_means(std::string_view bytes, const std::string& source,

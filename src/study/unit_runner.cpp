@@ -169,18 +169,6 @@ void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t see
     points = generated(warps);
 }
 
-/// Whether one of the words is a part of the key between dots: value, centered and both match
-/// centered.value, mean matches mean[0].
-bool is_meant(const std::string& key, const std::vector<std::string>& wanted) {
-    const auto dotted = [](std::string text) {
-        replace_all(text, "[", ".[");
-        return "." + text + ".";
-    };
-    return std::ranges::any_of(wanted, [&, all = dotted(key)](const std::string& w) {
-        return all.find(dotted(w)) != std::string::npos;
-    });
-}
-
 UnitResult measured(const SweepRequest& request, const Chosen<Analyzer>& measure,
                     const PointSet& points, const RunContext& run) {
     UnitResult result{.domain = points.domain->spec(), .points = points.count()};
@@ -210,6 +198,16 @@ void keep(WorkDone& done, std::uint64_t unit, const UnitResult& result) {
 }
 
 }  // namespace
+
+bool is_meant(const std::string& key, const std::vector<std::string>& wanted) {
+    const auto dotted = [](std::string text) {
+        replace_all(text, "[", ".[");
+        return "." + text + ".";
+    };
+    return std::ranges::any_of(wanted, [&, all = dotted(key)](const std::string& w) {
+        return all.find(dotted(w)) != std::string::npos;
+    });
+}
 
 std::vector<KeyedNumber> numbers_of(const Report& report, const std::vector<std::string>& keys,
                                     bool curves) {

@@ -70,10 +70,13 @@ class UnitRunner {
     std::set<View> before_warps_;  ///< the measure gets the points before the warps
 };
 
+/// Whether one of the words is a part of the key between dots: value, centered and both match
+/// centered.value, mean matches mean[0].
+bool is_meant(const std::string& key, const std::vector<std::string>& wanted);
+
 /// Returns a report's numbers in order, under dotted keys; flags are 0 and 1. Lists become numbers
 /// NAME[I] with `curves`, with `keys`, or if there is nothing else. Non-empty `keys` select the
-/// numbers whose key has one of them as a part between dots: value selects centered.value, mean
-/// selects mean[0].
+/// numbers that they mean.
 std::vector<KeyedNumber> numbers_of(const Report& report, const std::vector<std::string>& keys,
                                     bool curves);
 

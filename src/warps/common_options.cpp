@@ -28,7 +28,8 @@ std::vector<double> checked_weights(const Param<Numbers>& option, std::vector<do
                                     bool normalize) {
     for (const double w : weights)
         if (!(w >= 0 && w <= 1e300))
-            fail(ErrorKind::usage, "--{}: {} is outside [0, 1]", option.name, w);
+            fail(ErrorKind::usage, "--{}: {} is outside [0, {}]", option.name, w,
+                 normalize ? "1e300" : "1");
     const double sum = running_sums(weights).back();
     if (!normalize && !(std::abs(sum - 1) <= 1e-12))
         fail_with_hint(ErrorKind::usage, "--normalize divides them by their sum",

@@ -408,7 +408,13 @@ TEST(Study, WideTablesHaveARowForEachCountAndAColumnForEachGenerator) {
     EXPECT_EQ(good(box.shell("stipple study --wide s.csv -f jsonl | head -1 | grep -c half_width")),
               "1\n");
     expect_refusal(box.shell("stipple study --wide s.csv -n 8"), 2, "--count: does not apply");
-    expect_refusal(box.shell("stipple study --wide s.csv --keys value"), 2, "--keys: does not");
+    for (const std::string table : {"s.csv", "s.summary.csv"}) {
+        const std::string run = "stipple study --wide " + table + " --keys ";
+        EXPECT_EQ(good(box.shell(run + "value")), csv);
+        EXPECT_EQ(good(box.shell(run + "star-discrepancy.value | wc -l")), "4\n");
+        expect_refusal(box.shell(run + "value,squares"), 2,
+                       "--keys: " + table + " has no result 'squares'");
+    }
     expect_refusal(box.shell("stipple study --wide s.summary.csv --confidence 0.9"), 2,
                    "--confidence: does not apply to the summary of a study");
     EXPECT_EQ(good(box.shell("stipple study --wide s.csv --confidence 0.9")),

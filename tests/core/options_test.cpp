@@ -112,6 +112,9 @@ TEST(Spec, SaysTheColumnWhereItStopsBeingOne) {
     const auto error = [](const char* text) { return error_of([&] { parse_spec(text); }); };
     EXPECT_EQ(error("disk:center=[1,2"),
               "usage: spec 'disk:center=[1,2', column 17: ']' is missing");
+    EXPECT_EQ(error_of([] { parse_spec("expression-1d:density=max(0,x)"); }),
+              "usage: spec 'expression-1d:density=max(0,x)', column 28: a value with commas is "
+              "written in brackets, density=[...]");
     EXPECT_EQ(error("disk:"), "usage: spec 'disk:', column 6: an option's name is expected");
     EXPECT_EQ(error(""), "usage: spec '', column 1: a unit's name is expected");
     EXPECT_NE(error("disk@0,1"), "");

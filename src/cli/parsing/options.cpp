@@ -339,7 +339,8 @@ const Row rows[] = {  // an array, as a vector would copy each
      plot, &PlotRequest::draw},
     {"--keys", "KEY,...", "",
      "results to keep, by name or by a dotted part of it: value, radial.power, mean[0]; "
-     "ANALYZER.KEY is kept of this analyzer alone; default: all numbers",
+     "ANALYZER.KEY is kept of this analyzer alone; also of the table of a study that is the "
+     "INPUT; default: all numbers",
      study, &SweepRequest::keys},
     {"--summary", "", "",
      "means with standard errors, t and bootstrap intervals, medians, root mean squares, and "
