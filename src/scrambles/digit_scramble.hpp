@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Common part of the scrambles that work on digits: every coordinate has a base and a random map of
-// its digits in that base. The maps for base 2 are classes of their own, which process up to
-// most_moved points per call.
+// Shared code of the scrambles that work on digits: every coordinate has a base and a random map of
+// its digits in that base. Maps of base 2 have separate classes, which map up to most_moved points
+// per call.
 #pragma once
 
 #include <array>
@@ -16,10 +16,10 @@
 namespace stipple {
 
 /// Returns the function for Scramble::make.
-/// @param Binary has apply(fractions), in place (math/digital/binary_scramble.hpp)
-/// @param General has of(digits), which returns the image (math/digital/base_scramble.hpp)
-/// Both are made from a seed and a coordinate's index, General also from its base.
-/// @param base the option --base, which must outlive the unit
+/// @tparam Binary map of base 2: apply(fractions), in place (math/digital/binary_scramble.hpp)
+/// @tparam General map of another base: of(digits) is the image (math/digital/base_scramble.hpp)
+/// Both are constructed from a seed and a coordinate's index, General also from its base.
+/// @param base the option --base, which must outlive the scramble
 /// @param prime whether bases must be primes
 template <class Binary, class General>
 auto digit_scramble(const Param<Numbers>& base, bool prime) {

@@ -7,7 +7,7 @@
 // Cost     O(n d).
 // Promise  a coordinate stays in its interval [k / N, (k + 1) / N), by exact arithmetic. So N = n
 //          keeps the Latin property, and N = b^m the net property of a (t,m,s)-net in base b. A
-//          coordinate equal to an interval's lower edge, as rounded, counts as on it.
+//          coordinate equal to the rounded lower edge of an interval counts as in that interval.
 // Beware   depends on the points' order: u is a function of the point's index.
 
 #include <algorithm>
@@ -27,8 +27,7 @@ constexpr Param<std::int64_t> cells{.name = "cells",
                                     .optional = true,
                                     .help = "Number N of intervals; default: the number of points"};
 
-/// Index of the interval that contains x. If x is the rounded value of an edge, the interval that
-/// begins at that edge.
+/// Index of the interval that contains x. A rounded edge belongs to the interval above it.
 std::uint64_t interval_of(double x, std::uint64_t count) {
     const double scaled = x * static_cast<double>(count);
     const double edge = std::round(scaled);

@@ -4,8 +4,8 @@
 // by a permutation that depends on the first, and so on down the tree of digits.
 //
 // Cost     O(n d) in base 2; O(n d K b) with K digits in others.
-// Promise  every point is uniform in the cube; keeps the (t,m,s)-net property in its base. The
-//          digits after a point's last given one are random, too: 53 bits in all.
+// Promise  every point is uniform in the cube; keeps the (t,m,s)-net property in its base. Digits
+//          below the last digit of a given coordinate are random, too: 53 bits in all.
 // Beware   as in digital-shift. Equal points stay equal.
 // Source   A. B. Owen, in Monte Carlo and Quasi-Monte Carlo Methods in Scientific Computing (1995),
 //          299-317, doi:10.1007/978-1-4612-2552-2_19.

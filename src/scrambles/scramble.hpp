@@ -2,7 +2,7 @@
 //
 // Record of a scramble, and the randomization that it makes for given options. A scramble moves
 // points at random within the unit cube and keeps the kind of evenness that its file promises, such
-// as the net property. Each point becomes uniform, except by micro-jitter and given shifts.
+// as the net property. A scrambled point is uniform, except with micro-jitter or given shifts.
 #pragma once
 
 #include <cstddef>
@@ -16,11 +16,10 @@
 
 namespace stipple {
 
-/// Option of every scramble; resolved before the scramble is made.
+/// Option of every scramble; its default is filled in before Scramble::make is called.
 inline constexpr Param<Text> scramble_seed{
     {.name = "seed", .help = "64-bit seed of this scramble; default: the set's"}};
 
-/// Describes the set to scramble.
 struct ScrambleRequest {
     /// Indices of the coordinates to scramble, from 0.
     std::vector<std::size_t> coordinates = {};
@@ -28,9 +27,9 @@ struct ScrambleRequest {
     std::uint64_t count = 1;  ///< points in the whole set; 0: not known
 };
 
-/// Map of points drawn at random by a scramble; safe to call from several threads. Moves points
-/// first, first + 1, ... of the set: `rows` holds those of their coordinates that are scrambled, in
-/// [0, 1] on entry and in [0, 1) on return.
+/// Map of points, drawn at random by a scramble; safe to call from several threads. `rows` holds
+/// the scrambled coordinates of points first, first + 1, ... of the set, in [0, 1] on entry and in
+/// [0, 1) on return.
 using Randomization = std::function<void(std::uint64_t first, std::span<double> rows)>;
 
 struct Scramble {
@@ -38,7 +37,7 @@ struct Scramble {
     std::string summary;
     std::string source;
     std::string family = {};  ///< family name such as "blue noise", set by the registry
-    /// Search words such as its kind, parts or uses; not names of units (see layering_test.cpp).
+    /// Search words, such as kind, parts or uses; no names of other components (layering_test.cpp).
     std::vector<std::string> related = {};
     Schema options;
     std::vector<std::string> aliases = {};  ///< other names that users may type
