@@ -46,8 +46,7 @@ struct BoxSpace {
     /// `density` of them; in a bounded box, a few more fit along the walls.
     [[nodiscard]] double expected_points(double density, double radius) const;
 
-    /// @throws Error(limit) naming `name` if rounding may move points by more than a thousandth of
-    /// `radius`
+    /// @throws Error(limit) naming `name` if rounding may move points by more than radius / 1000
     void check_resolution(double radius, std::string_view name) const;
 };
 
@@ -62,8 +61,7 @@ Plan plan_in_bounds(const Request& request);
 /// squares of the box's distances
 Plan plan_in_box(const Request& request, const Values& options);
 
-/// Side lengths of the plan's box relative to the shortest; empty if all are equal, as in the unit
-/// cube.
+/// Side lengths of the plan's box over the shortest; empty without a box or if all are equal.
 std::vector<double> proportions_of(const Plan& plan);
 
 /// Largest ratio of two sides that plan_in_proportion() accepts.

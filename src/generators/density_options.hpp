@@ -28,7 +28,7 @@ void check_invert(const Values& options);
 /// @throws Error(usage) as check_invert, or if --density is given and the dimension is not 2
 void check_density(const Values& options, std::size_t dimension);
 
-/// Density map read from --density; nullopt if it is not given or the unit has no such option.
+/// Density map read from --density; nullopt if it is not given or the generator does not have it.
 /// @throws as check_invert, read_density
 std::optional<DensityMap> given_density(const Values& options, const RunContext& run);
 
@@ -39,7 +39,7 @@ double follow(const DensityMap& map, const Box& box, double* point);
 /// Adds --density and --invert, if given, to the points' provenance.
 void note_density(const Values& options, PointSet& points);
 
-/// The one of density, mask and radius-map that is given and makes points uneven, or nullptr.
+/// Name of the given option that makes points uneven (density, mask or radius-map), or nullptr.
 const char* shaping_option(const Values& options);
 
 }  // namespace stipple

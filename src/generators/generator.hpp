@@ -22,18 +22,18 @@
 
 namespace stipple {
 
-/// Images of the points under the warps after their generator, for searches that optimize images.
+/// Images of a generator's points under the warps after it, for searches that optimize the images.
 struct Destination {
     /// Whether point i at `row` has an image; safe to call from several threads.
     std::function<bool(std::uint64_t i, std::span<const double> row)> has_image = {};
     bool drops = false;  ///< true if some points have no image; a search should avoid them
-    std::vector<OutcomeAxis> axes = {};  ///< values of each coordinate's images
-    PointSet given = {};  ///< preimages in the cube of a file's points, which the set extends
+    std::vector<OutcomeAxis> axes = {};  ///< outcomes of each coordinate's parameter
+    PointSet given = {};  ///< preimages in the unit cube of the points that the set extends
 };
 
 /// Request with defaults for all values that it leaves open.
 struct Plan {
-    std::uint64_t count = 0;  ///< 0 if known only once the set is made
+    std::uint64_t count = 0;  ///< 0: known only after the set is made
     std::size_t dimension = 0;
     std::uint64_t seed = 1;
     std::optional<Box> bounds = {};
@@ -53,12 +53,11 @@ class Sequence {
     /// Files written together with the points.
     std::vector<SideFile> side_files = {};
 
-    /// Writes points first, first + 1, ... until `rows` (a multiple of the dimension) is full;
-    /// coordinates in [0, 1). With random_access() several threads may call it at once.
+    /// Writes points first, first + 1, ... until `rows`, a multiple of the dimension, is full;
+    /// in [0, 1)^d, or the box if boxed. With random_access() several threads may call it at once.
     void fill(std::uint64_t first, std::span<double> rows) const { fill_(first, rows); }
 
-    /// False for a random number engine that must be run in order: continuing is cheap, but a jump
-    /// generates all points in between.
+    /// False for a random number engine that runs in order: a jump generates all points in between.
     [[nodiscard]] bool random_access() const { return random_access_; }
 
     void set_found(Found found) { found_ = std::move(found); }
@@ -84,11 +83,11 @@ struct GeneratorTraits {
     bool sequence = true;      ///< makes any range of points in constant memory
     bool prefix = true;        ///< point i does not depend on the count; --start works
     bool seeded = true;        ///< uses the seed, at least under some options
-    bool boxed = false;        ///< makes points in the box, not in the cube, as distances matter
+    bool boxed = false;        ///< makes points in the box instead of the cube: distances matter
     bool independent = false;  ///< points are statistically independent
     bool levels = false;  ///< coordinates are levels of factors, to which warps may assign values
     std::uint64_t max_index = std::uint64_t{1} << 53;  ///< start + count is at most this
-    std::string more_dimensions = {};  ///< option with a file that allows more than max_dimension
+    std::string more_dimensions = {};  ///< name of a file option that raises max_dimension
 };
 
 /// Integers in the formula of a generator's points, such as the columns of a matrix.
@@ -106,19 +105,18 @@ struct Generator {
     std::string summary;
     std::string source;
     std::string family = {};  ///< such as "blue noise"; set by the registry from the folder
-    /// Search words such as its kind, parts or uses; not names of units (see layering_test.cpp).
+    /// Search words, such as kind, parts or uses; no names of other components (layering_test.cpp).
     std::vector<std::string> related = {};
     GeneratorTraits traits;
     Schema options;
     std::vector<std::string> aliases = {};  ///< other names that users of the field would type
-    std::vector<std::string> writes = {};   ///< options that name a side file (core/point_set.hpp)
+    std::vector<std::string> writes = {};   ///< options for side files (core/point_set.hpp)
 
-    /// Increased whenever the points for the same options and seed change (see
-    /// tests/contract/golden.txt).
+    /// Increased whenever the same options and seed give other points (tests/contract/golden.txt).
     std::uint64_t stream_version = 1;
 
     /// Decides count and dimension. If empty: 1024 points and 2 dimensions by default.
-    /// @throws Error(usage) for counts and dimensions it cannot make, naming those it can
+    /// @throws Error(usage) naming the possible values if the count or dimension is not possible
     std::function<Plan(const Request&, const Values&)> plan = {};
 
     /// Exactly one of `sequence` and `set` is given, according to traits.sequence. A sequence
@@ -128,7 +126,7 @@ struct Generator {
     /// A set may add values it computed, such as a radius, to the options in its provenance.
     std::function<PointSet(const Plan&, const Values&, const RunContext&)> set = {};
 
-    /// Sets options that follow from others, for the provenance: a given vector decides the rule.
+    /// Sets options that other options imply, for the provenance: a given vector implies its rule.
     std::function<void(Values&)> settle = {};
 
     /// Whether the points depend on the seed under these options; if empty, traits.seeded decides.
@@ -141,12 +139,11 @@ struct Generator {
     /// sequence, 3e-5 n 5^(d - 2) for other sets.
     double (*cost)(double n, double d) = nullptr;
 
-    /// For sequences: true if these options make a set as a whole in memory, mostly by a search; a
-    /// stopped search may then return its best result. If empty: never.
+    /// For sequences: whether these options make the whole set in memory, mostly by a search, which
+    /// may return its best result so far if it is stopped. If empty: false.
     std::function<bool(const Values&)> whole = {};
 
-    /// For generators of digits in bases other than 2: the base of each coordinate, which scrambles
-    /// take as their default.
+    /// For bases other than 2: the base of each coordinate, which scrambles take as their default.
     std::function<std::vector<std::uint32_t>(const Plan&, const Values&)> bases = {};
 
     /// Constants of the points' formula, besides count, dimension, bases and options, for emitted
@@ -171,7 +168,7 @@ Values quick_options(const Generator& generator);
 /// Plan of a generator without a function `plan`: the request, with these defaults.
 Plan default_plan(const Request& request, std::uint64_t count = 1024, std::size_t dimension = 2);
 
-/// Throws Error(usage): `who` needs a count that is `what`. The message names the nearest such
+/// Throws Error(usage): the generator `who` needs a count that is `what`. Names the nearest such
 /// counts: `below` unless it is 0, `above` unless it exceeds 2^53.
 [[noreturn]] void refuse_count(std::uint64_t count, const std::string& what, const std::string& who,
                                std::uint64_t below, std::uint64_t above);

@@ -27,7 +27,7 @@ BinaryMatrices binary(const std::vector<DigitMatrix>& matrices) {
     return packed;
 }
 
-/// Blocks of b^t indices equal except in their t lowest digits; t >= 1 is largest with b^t <= 1024.
+/// Blocks of b^t indices that differ only in their t lowest digits; b^t <= 1024 unless t = 1.
 struct LowDigits {
     explicit LowDigits(std::uint32_t base) : block(base), count(1) {
         for (; block * base <= largest_digit_table; block *= base) ++count;
@@ -52,8 +52,7 @@ struct LowDigits {
 };
 
 /// Nested scrambling in an odd base. If the matrices are triangular, points of a block share all
-/// digits except the first t, so the images of all b^t possible values are computed at once and
-/// looked up.
+/// digits except the first t, so their b^t possible images are computed at once and looked up.
 class OwenNet {
   public:
     OwenNet(BaseNet net, const std::vector<DigitMatrix>& matrices, std::uint32_t base,
@@ -89,8 +88,8 @@ class OwenNet {
         std::vector<double> images(low_.block);
         const std::uint64_t shared = reversed_digits(*out, base_) / low_.block;
         scrambles_[k].fill(shared * low_.block, low_.block, images.data(), 1);
-        // Adding 2^-51 before truncation gives the right digits: coordinates are at least 2^-50
-        // apart, rounded by 2^-54.
+        // Adding 2^-51 before truncation gives the right digits: distinct coordinates differ by at
+        // least 2^-50, with rounding errors of 2^-54.
         const auto block = static_cast<double>(low_.block);
         for (std::size_t i = 0; i < count; ++i)
             out[i * d] =
@@ -161,7 +160,7 @@ void check_net_end(const Request& request, const Plan& plan, std::uint32_t base,
 std::unique_ptr<Sequence> net_sequence(std::uint32_t base, std::vector<DigitMatrix> matrices,
                                        const Plan& plan, const Values& options) {
     if (base == 2) {
-        Values all = options;  // natural order, unless the unit has --order
+        Values all = options;  // natural order if the generator has no --order
         if (all.try_find(binary_order.name) == nullptr)
             all.put(binary_order.name, std::string(binary_order.fallback), false);
         return binary_sequence(binary(matrices), plan, all);
@@ -195,10 +194,9 @@ std::unique_ptr<Sequence> plain_sequence(BinaryNet net) {
     });
 }
 
-/// 64-bit words in a block: Owen's scrambling works on one coordinate of all points of a block.
+/// Size of a block in 64-bit words; Owen's scrambling handles a coordinate of all its points.
 constexpr std::size_t block_words = 2048;
 
-/// Scrambles coordinate k of the points of a block.
 void scramble_column(const BinaryOwen& owen, std::span<const std::uint64_t> block, std::size_t d,
                      std::size_t k, double* out) {
     std::array<std::uint64_t, block_words> column;
@@ -273,7 +271,7 @@ std::vector<std::string> binary_notes(const Request& request, const Plan& plan, 
 
 std::vector<std::string> net_notes(std::uint64_t base, const Request& request, const Plan& plan) {
     const std::uint64_t start = request.start;
-    std::uint64_t power = 1;  // largest power of the base up to the count
+    std::uint64_t power = 1;  // largest power of the base not above the count
     while (plan.count / power >= base) power *= base;
     const std::uint64_t below = plan.count / power * power;
     if (below == plan.count) {

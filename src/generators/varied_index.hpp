@@ -118,7 +118,7 @@ class VariedIndex {
         std::int64_t count;
     };
 
-    /// The last class also holds all larger radii.
+    /// Class of a radius, not limited to last_class_, which also holds all larger radii.
     [[nodiscard]] std::size_t class_of(double radius) const {
         int exponent = 0;
         std::frexp(std::min(radius / least_, 1e300), &exponent);
@@ -132,7 +132,7 @@ class VariedIndex {
         return static_cast<std::int64_t>(std::clamp(at, -2 * count - 2, 3 * count + 2));
     }
 
-    /// Cells that may meet [low, high], each once; on the torus the range may exceed [0, count).
+    /// Cells that may overlap [low, high], each once; on the torus indices may exceed [0, count).
     [[nodiscard]] Cells cells(std::size_t c, std::size_t k, double low, double high) const {
         const std::int64_t count = classes_[c].count[k];
         const double slack = 1e-9 / classes_[c].scale[k];

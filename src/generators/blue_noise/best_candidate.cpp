@@ -6,12 +6,12 @@
 //     m = max(1, c i),    c = --candidates.
 //
 // In up to 3 dimensions only a few of the m candidates are made. The box is divided into cells,
-// each with an upper bound of the distance from any position in it to the nearest point. Some
-// cells, those with the highest bounds, are open. First the number of candidates in open cells is
-// drawn from a binomial distribution, and they are made. While the distance of the best of them is
-// below the highest bound of a closed cell, the bound of that cell is recomputed. If it stays, the
-// cell is halved or, once small, opened, and one more binomial draw gives its number of the
-// remaining candidates. Other candidates cannot win and are never made.
+// each with an upper bound of the distance from its positions to the nearest point. The cells with
+// the highest bounds are open. The number of candidates in open cells is drawn from a binomial
+// distribution, and these are made. While the distance of the best of them is below the highest
+// bound of a closed cell, that bound is recomputed. If the bound stays the same, the cell is halved
+// or, once small, opened; another binomial draw gives the number of remaining candidates in it.
+// Candidates in cells that stay closed cannot win and are never made.
 //
 // In more dimensions cells exclude too little, so all candidates are made.
 //
@@ -65,7 +65,7 @@ class PointDraws {
     /// Binomially distributed number of hits among m trials of probability p.
     std::uint64_t binomial(std::uint64_t m, double p) {
         if (p >= 1) return m;
-        // Split in two, as the probability of no hit at all could underflow.
+        // Splits the trials in two, because the probability of no hit could underflow.
         if (m > 1 && static_cast<double>(m) * p > 16)
             return binomial(m / 2, p) + binomial(m - m / 2, p);
         double chance = whole_power(1 - p, m);  // probability of k hits, for k = 0, 1, ...
@@ -91,9 +91,8 @@ struct Waiting {
     }
 };
 
-/// The box divided into cells, each with an upper bound of the distance to the nearest point. Cells
-/// with the highest bounds are open, enough of them to receive a few candidates: the candidates of
-/// all open cells are drawn together. The other cells are in a heap.
+/// The box divided into cells. Cells with the highest bounds are open: enough of them to receive a
+/// few candidates, which are drawn for all open cells together. The other cells are in a heap.
 template <std::size_t D>
 class LazySearch {
   public:
@@ -127,7 +126,7 @@ class LazySearch {
         PointDraws draws(rng_, points_.count());
         best_ = -1;
         all_ = std::max(1.0, std::floor(factor_ * static_cast<double>(points_.count())));
-        // Cells become as small as the regions in which distances exceed the best candidate's.
+        // Open cells are about as small as the region of candidates that beat the best one.
         constexpr double fine = 64;
         open_size_ = std::min(0.25, fine * factor_ * nth_root(all_, D + 1) / all_);
         while (!heap_.empty() && all_ * open_share_ < eager) pull();
@@ -150,7 +149,7 @@ class LazySearch {
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     static constexpr std::uint32_t most_halvings = 50;
     static constexpr std::uint32_t closed = 0xffff'ffff;
-    static constexpr double eager = 64;  ///< least expected number of candidates in open cells
+    static constexpr double eager = 64;  ///< minimum expected number of candidates in open cells
 
     struct Cell {
         Point low;
@@ -160,7 +159,6 @@ class LazySearch {
         std::uint32_t slot = closed;  ///< index in the list of open cells of its depth
     };
 
-    /// An open cell: candidates are drawn in it.
     struct Open {
         Point low;
         double bound;
@@ -228,8 +226,8 @@ class LazySearch {
         return hits;
     }
 
-    /// Open cell that contains `place`, if all open cells are joined end to end, ordered by depth.
-    /// A place is measured in volume, as a fraction of the box.
+    /// Open cell at position `place` if the open cells are joined end to end, ordered by depth;
+    /// `place` is a volume, as a fraction of the box.
     [[nodiscard]] const Open& open_cell(double place) const {
         std::uint32_t last = 0;
         for (std::uint32_t depth = 0; depth <= most_halvings; ++depth) {
@@ -270,8 +268,7 @@ class LazySearch {
         list.resize(kept);
     }
 
-    /// Updates the bound of an open cell and closes it if the bound is below `level`; returns
-    /// whether it did.
+    /// Updates an open cell's bound, and closes the cell if it is below `level`; true if closed.
     bool closes(std::uint32_t id, double level) {
         Cell& cell = cells_[id];
         const double before = cell.bound;
@@ -294,7 +291,7 @@ class LazySearch {
                 open(half);
     }
 
-    /// Makes a new grid of tiles, which finds open cells near a point; about one tile per point.
+    /// Makes a new grid of about one tile per point; tiles find the open cells near a point.
     void make_tiles() {
         double longest = 0;
         for (const double side : sides_[0]) longest = std::max(longest, side);
@@ -327,15 +324,14 @@ class LazySearch {
             std::min(cell.bound, std::sqrt(covering_.squared(halves_[cell.depth])) * safety);
     }
 
-    /// Distance from the cell's centre beyond which no point can be the nearest to any location in
-    /// the cell.
+    /// Distance from the cell's centre beyond which a point is nearest to no location in the cell.
     [[nodiscard]] double reach_of(const Cell& cell) const {
         double squared = 0;
         for (const double half : halves_[cell.depth]) squared += half * half;
         return cell.bound + std::sqrt(squared);
     }
 
-    /// Collects all points within `reach` of `middle`, relative to it.
+    /// Collects all points within `reach` of `middle`, as offsets from `middle`.
     void gather(const Point& middle, double reach) {
         covering_.clear();
         points_.visit(middle.data(), reach, [&](std::size_t, double, const double* q) {
@@ -434,9 +430,9 @@ class LazySearch {
     std::priority_queue<Waiting> heap_;
     std::array<std::vector<Open>, most_halvings + 1> open_;  ///< open cells
     bool crowded_ = false;                                   ///< more cells are open than needed
-    double open_share_ = 0;     ///< fraction of the box in open cells; exact
+    double open_share_ = 0;     ///< fraction of the box in open cells, without rounding errors
     std::uint32_t newest_ = 0;  ///< cell opened last
-    GridFrame<D> tiles_;        ///< grid of the tiles
+    GridFrame<D> tiles_;
     /// Open cells, in a list for each tile; some may have been closed since.
     std::vector<std::vector<std::uint32_t>> tile_cells_;
     std::vector<std::uint32_t> missed_;  ///< cells with a candidate that did not become the best
@@ -451,8 +447,7 @@ class LazySearch {
 /// much. Measured for 3000 to 300 000 points.
 constexpr std::array<double, 3> cell_bytes{700, 1500, 5800};
 
-/// Largest dimension in which cells are used. In more dimensions, making all candidates is faster
-/// for fewer than 10^4.5 points.
+/// Largest dimension with cells; above it, making all candidates is faster up to 10^4.5 points.
 constexpr std::size_t most_lazy = cell_bytes.size();
 
 template <std::size_t D>
@@ -480,7 +475,7 @@ constexpr double out_of_reach = 1e300;
 
 /// Least squared distance from p to the points. Stops and returns `enough` once a squared distance
 /// is at most `enough`.
-/// @param along coordinates of the points, padded to a multiple of `together`
+/// @param along coordinates of the points by axis, padded to a multiple of `together`
 STIPPLE_WIDE double least_squared(std::span<const std::vector<double>> along,
                                   std::span<const double> turns, const double* p, double enough) {
     std::array<double, together> least;
@@ -539,7 +534,7 @@ std::vector<double> all_candidates(const BoxSpace& space, std::uint64_t seed, do
                                     : std::numeric_limits<double>::infinity());
     const Rng rng(seed);
     std::vector<double> rows;
-    std::vector<std::vector<double>> along(d);  // coordinates of the points, padded with far ones
+    std::vector<std::vector<double>> along(d);  // coordinates by axis, padded with far points
     for (std::uint64_t i = 0; i < wanted; ++i) {
         if (i % 16 == 0) run.tick(i, wanted);
         const double all = std::max(1.0, std::floor(factor * static_cast<double>(i)));

@@ -50,12 +50,11 @@ constexpr Param<bool> crystals{
 
 constexpr double rough = 1e-2;   // relative tolerance of the masses while points still move
 constexpr std::size_t few = 20;  // limit of Newton steps for `rough`; one or two usually suffice
-constexpr double fine = 1e-8;    // tolerance at the end; Newton's last step reaches it anyway
+constexpr double fine = 1e-8;    // relative tolerance at the end; the last step reaches it anyway
 constexpr double promised = 1e-6;
 constexpr std::uint64_t rest = 10;  // iterations from one shake to the next
 
-/// The direction of d, as a complex number of length 1, to the sixth power: (x + iy)^6 / |x +
-/// iy|^6.
+/// Unit vector at six times the angle of d: (x + iy)^6 / |x + iy|^6 as a complex number.
 Vec2 sixfold(const Vec2& d) {
     const auto times = [](const Vec2& a, const Vec2& b) {
         return Vec2{a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};
@@ -66,8 +65,7 @@ Vec2 sixfold(const Vec2& d) {
     return times(times(square, square), square);
 }
 
-/// Marks points whose neighbours form nearly a hexagon, if the same is true of at least two of the
-/// neighbours.
+/// Marks points that, like at least two of their neighbours, have neighbours in nearly a hexagon.
 std::vector<bool> hexagons(const EqualCells& cells) {
     struct Order {
         Vec2 sum;
@@ -109,8 +107,8 @@ void shake(EqualCells& cells, const Rng& rng) {
     }
 }
 
-/// Point of the pixels of positive density that is nearest to `at`, but a random 10 to 20 % of a
-/// pixel's sides away from its edges, so that no two points coincide.
+/// Position in a pixel of positive density that is nearest to `at`, but a random 0.1 to 0.2 of the
+/// pixel's sides or more away from its edges, so that no two points coincide.
 Vec2 nearest_dark(const DensityMap& density, const Planar& planar, Vec2 at, const Rng& rng,
                   std::uint64_t draw) {
     const auto columns = static_cast<std::int64_t>(density.width());
@@ -136,7 +134,7 @@ Vec2 nearest_dark(const DensityMap& density, const Planar& planar, Vec2 at, cons
             best = to;
         }
     };
-    // Searches rings of pixels around `at` until all others are farther than the best.
+    // Searches rings of pixels around `at` until all other pixels are farther than the best.
     for (std::int64_t ring = 0; ring < std::max(columns, rows); ++ring) {
         const double reach = static_cast<double>(ring - 1) * std::min(side.x, side.y);
         if (reach > 0 && reach * reach > least) break;

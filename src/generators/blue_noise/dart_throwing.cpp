@@ -3,19 +3,19 @@
 // Dart throwing: uniform random points of the box, one after the other, except those that are
 // nearer than the radius to an earlier one.
 //
-// --radius R  the radius is fixed; the set ends when --misses darts in a row were rejected. With
-//             --count too, exactly so many points, or an error.
+// --radius R  the radius is fixed; the set ends when --misses darts in a row were rejected. If
+//             --count is given, too, the set has exactly that many points, or the run fails.
 // --count N   the radius shrinks: it starts at the largest distance in the box and is multiplied by
 //             --shrink after every --misses darts in a row that were rejected. The first i points
 //             keep the radius at which point i was placed, so that every prefix is well spread.
-// --density   in the plane, darts are distributed by it. The radius is r at the largest density,
+// --density   in the plane, darts follow the density. The radius is r at the largest density,
 //             and r(x) = r sqrt(largest density / density(x)) elsewhere; two points keep the
 //             smaller of their radii.
 //
 // Shape   d = 1, ..., 6; distances are those in the box of --bounds, across its faces (torus) or
 //         bounded.
 // Cost    up to about --misses darts a point while the radius shrinks; 5 us a point in 2-D by
-//         default, with a density 12 us. 60 and 120 bytes a point in 2-D.
+//         default, 12 us with a density. Memory in 2-D: 60 bytes a point, 120 with a density.
 // Promise sum_k d_k^2 >= radius^2 for every pair, in float64, from the coordinates as stored;
 //         d_k = |x_k - y_k|, on the torus min(d_k, side_k - d_k). The provenance has the radius,
 //         the last one if it shrinks. Point i does not depend on the number of points.
@@ -102,8 +102,7 @@ class EvenDarts {
     GrowingPoints<D> points_;
 };
 
-/// Darts distributed by a density; r is the radius at its maximum. Two points keep the smaller of
-/// their radii.
+/// Darts that follow a density; r is the radius at its maximum. A pair keeps the smaller radius.
 class DenseDarts {
   public:
     DenseDarts(const BoxSpace& space, const DensityMap& map, std::uint64_t seed)
@@ -128,8 +127,7 @@ class DenseDarts {
     static constexpr double memory(double points) { return 120 * points; }
 
   private:
-    /// Indexes the points with their radii for this r. These radii stay upper bounds while r
-    /// shrinks.
+    /// Indexes the points with their radii for this r, which stay upper bounds while r shrinks.
     void index(double r) {
         indexed_ = r;
         disks_.emplace(space_, r, times_.size());

@@ -26,7 +26,7 @@ constexpr double unit = 0x1p40;  ///< weights are integers, in units of 2^-40
 struct Kernel {
     double nearest;  ///< r_min / r_max: distances below 2 r_min count as 2 r_min
 
-    /// @param inverse 1 over the distance from which on the term is 0
+    /// @param inverse 1 / (distance from which on the term is 0)
     [[nodiscard]] std::uint64_t operator()(double squared_distance, double inverse) const {
         const double t = 1 - std::max(std::sqrt(squared_distance) * inverse, nearest);
         const double t2 = t * t;
@@ -61,8 +61,8 @@ class LayeredPoints {
     [[nodiscard]] std::size_t count() const { return originals_.size(); }
     [[nodiscard]] std::uint32_t original(std::size_t s) const { return originals_[s]; }
 
-    /// Calls visit(t, squared distance, 1 over the distance from which on the term is 0) for all
-    /// points t that have a term with s, including s itself.
+    /// Calls visit(t, squared distance, 1 / (distance from which on the term is 0)) for all points
+    /// t that have a term with s, including s itself.
     template <class Visit>
     void visit(std::size_t s, Visit&& visit) const {
         const Layer& layer = layers_[layer_of_[s]];
@@ -81,7 +81,7 @@ class LayeredPoints {
 
   private:
     struct Layer {
-        std::size_t first;  ///< index of its first point
+        std::size_t first;  ///< index of the layer's first point
         double largest;     ///< largest radius
         std::optional<SortedPoints<D>> points;
     };
@@ -206,8 +206,8 @@ constexpr std::size_t most_points = 65'536;
 constexpr std::size_t most_balls = 256;
 constexpr std::size_t fewest = 24;  ///< minimum number of points for an estimate
 
-/// Squared distance from a point to its k-th neighbour, and the ratio of two mean squared
-/// distances: that of its 4k nearest neighbours over that of its k nearest.
+/// Squared distance from a point to its k-th neighbour; and the mean squared distance to its 4k
+/// nearest neighbours, divided by that to its k nearest.
 struct Ball {
     double square;
     double growth;
@@ -251,7 +251,7 @@ std::vector<Ball> balls_of(std::span<const double> rows, std::size_t directions,
         std::ranges::nth_element(squares, far);
         const auto near = squares.begin() + static_cast<std::ptrdiff_t>(inner);
         std::nth_element(squares.begin(), near, far);
-        std::sort(squares.begin(), far + 1);  // so that sums do not depend on the library
+        std::sort(squares.begin(), far + 1);  // makes sums independent of the library's nth_element
         const double within = std::accumulate(squares.begin(), near + 1, 0.0);
         const double all = std::accumulate(near + 1, far + 1, within);
         if (*near > 0) balls.push_back({*near, all / (4 * within)});

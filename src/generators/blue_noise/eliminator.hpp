@@ -35,7 +35,7 @@ namespace stipple {
 /// dimension and measure; from four dimensions on, an upper bound that no packing reaches.
 double packing_radius(double count, std::size_t dimension, double measure);
 
-/// Indices of the removed points, all but `kept`, in the order of removal.
+/// Indices of the removed points in the order of removal; `kept` points remain.
 /// @param rows points of the space, one after the other
 /// @param shares radius of each point as a multiple of r_max, above 0; empty: 1 for all
 std::vector<std::uint32_t> eliminate(std::span<const double> rows, const BoxSpace& space,
@@ -51,7 +51,7 @@ double elimination_memory(double points, std::size_t dimension, bool with_shares
 // Take a ball around one of n points that holds k of them. In d dimensions of measure A its volume
 // is nearly V_d r_k^d = A k / n, however evenly the points are spread. The mean squared distance in
 // the ball is smoother than r_k^2 and grows by the factor 4^(2/d) from k points to 4k, so the
-// median growth gives d. Balls that reach beyond the points' rim are too large, so the smaller ones
+// median growth gives d. Balls that cross the points' boundary are too large, so the smaller ones
 // give A: within about 10 % in the plane, and in space within 25 % (200 points) or 5 % (5000).
 //
 // The estimate has to hold at the distances between the kept points: many kept points reveal that a

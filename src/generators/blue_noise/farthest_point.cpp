@@ -5,8 +5,8 @@
 //
 //     x_i  <-  argmax over x of  min over j != i of |x - x_j|,
 //
-// which never lowers the minimum distance of the set, and raises it close to that of hexagons,
-// while the points stay irregular.
+// which never lowers the minimum distance of the set. It comes close to that of the hexagonal
+// lattice, while the points stay irregular.
 //
 // Empty circles are centred at corners of Voronoi cells: each cell is stored with its farthest
 // corner, in a tree that finds the farthest of all. A move recomputes the cells around the old and
@@ -140,8 +140,8 @@ class FarthestPoint {
         return around;
     }
 
-    /// Squared distance from the site of the cell cut last to its nearest neighbour; infinite if
-    /// its only neighbours are walls.
+    /// Squared distance from the last cut cell's site to its nearest site; infinite if there is
+    /// none.
     [[nodiscard]] double squared_nearest() const {
         double least = std::numeric_limits<double>::infinity();
         for (const auto& [at, neighbor, site] : cell_.corners())
@@ -160,10 +160,10 @@ class FarthestPoint {
         return {sites_.inside({sites_[i].x + x, sites_[i].y + y}), x * x + y * y};
     }
 
-    /// If the largest gap is the one that the point has left, inserts the point beyond the gap's
-    /// centre, unless that is nearer to others than the point was. Returns whether it was inserted.
+    /// If the largest gap is the one that point i has left, inserts the point beyond the gap's
+    /// centre, unless it would be nearer to others than at `was`. Returns whether it was inserted.
     bool overshoot(std::size_t i, Vec2 was, Vec2 to, double nearest) {
-        constexpr double beyond = 0.8;  // over the step; 0 takes 8 times as many iterations
+        constexpr double beyond = 0.8;  // fraction of the step; 0 takes 8 times as many iterations
         const Vec2 step = sites_.shortest(was, to);
         if (step.x * step.x + step.y * step.y > nearest / 16) return false;
         sites_.insert(i, sites_.inside({to.x + beyond * step.x, to.y + beyond * step.y}));

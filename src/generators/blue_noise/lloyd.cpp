@@ -12,7 +12,7 @@
 //
 // Shape   d = 2; any rectangle, its opposite sides joined (torus) or walls.
 // Cost    1.3 us a point and iteration on one core, with a density 2 us and more; 100 bytes a
-//         point. Points where the density is 0 all around stay where they are.
+//         point. A point whose whole cell has density 0 does not move.
 // Promise E never rises; the same bits for any number of threads. Of points that coincide, all but
 //         one are moved to random positions.
 // Source  S. P. Lloyd, IEEE Trans. Inf. Theory 28 (1982) 129-137, doi:10.1109/TIT.1982.1056489.

@@ -62,13 +62,12 @@ struct PlanarStart {
     [[nodiscard]] std::size_t count() const { return rows.size() / 2; }
 };
 
-/// Makes the initial points, as the options specify.
-/// @param bytes per point, for the memory limit; messages name `who`
+/// @param bytes memory per point, checked against the limit; error messages name `who`
 /// @throws Error(limit), and errors of reading the files
 PlanarStart planar_start(const Plan& plan, const Values& options, double bytes,
                          std::string_view who, const RunContext& run);
 
-/// Moments over cells of function(density) after scaling to a mean of 1; nullopt without a density.
+/// Moments over cells of function(density), scaled to a mean of 1; nullopt without a density.
 std::optional<DensityMoments> planar_moments(const std::optional<DensityMap>& density,
                                              const std::function<double(double)>& function,
                                              const Planar& planar, const RunContext& run);

@@ -19,14 +19,14 @@
 //
 // --order random       the remaining points, in their original order
 // --order progressive  half of the remaining points are eliminated in the same way, with r_max for
-//                      the points that are left. Eliminated points go to the end, the first last.
-//                      Then half of the others, and so on. Every prefix is well spread.
+//                      the points that are left, and put at the end, the first eliminated one last;
+//                      then half of the others, and so on. Every prefix is well spread.
 //
 // Shape   d = 1, ..., 6; distances are those in the box of --bounds, across its faces (torus) or
 //         bounded. With --from they are bounded unless --torus is given; the box is --bounds, or on
 //         the torus the unit cube, or else the smallest one around the points.
-// Cost    2-D: 15 us a point of the result at the ratio 5, with a density 22; 450 and 650 bytes a
-//         point. A file is read three times.
+// Cost    2-D, ratio 5: 15 us and 450 bytes a point of the result; with a density 22 us and 650
+//         bytes. A file is read three times.
 // Promise exactly N points. The point of greatest weight is removed each time, the first of equals.
 // Source  C. Yuksel, Comput. Graph. Forum 34 (2015) 25-32, doi:10.1111/cgf.12538.
 
@@ -84,13 +84,12 @@ constexpr Param<double> measure{.name = "measure",
                                     "Length of the curve, area of the surface...; default: that of "
                                     "the box, or an estimate if the points fill less of it"};
 
-/// All points to choose from, and the space with its metric that contains them.
+/// All points to choose from, and the space that contains them.
 struct Crowd {
     std::vector<double> rows;
     BoxSpace space;
     std::vector<double> shares = {};  ///< radius of each point as a multiple of r_max
     CrowdExtent extent = {};
-    /// For each point, the number of equal points before it; empty if all points differ.
     std::vector<std::uint32_t> copies = {};
 };
 
@@ -287,7 +286,7 @@ std::vector<std::uint32_t> thin(const Crowd& crowd, std::vector<std::uint32_t>& 
 
 /// Reorders the points so that every prefix is well spread.
 void arrange(const Crowd& crowd, std::vector<std::uint32_t>& points, const RunContext& run) {
-    std::vector<std::uint32_t> tail;  // last point first
+    std::vector<std::uint32_t> tail;  // eliminated points; the last in the new order comes first
     const auto done = [all = static_cast<double>(points.size())](std::size_t left) {
         return 1 - static_cast<double>(left) / all;
     };

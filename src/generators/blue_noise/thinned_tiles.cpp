@@ -22,7 +22,7 @@ struct ScoredPoint {
     auto operator<=>(const ScoredPoint&) const = default;
 };
 
-/// Range of scores: those with bits in [low, low + 2^width).
+/// Range of scores whose bits, as integers, are in [low, low + 2^width).
 struct Window {
     std::uint64_t low = 0;
     int width = 63;
@@ -51,8 +51,8 @@ class TilesInWindow {
     [[nodiscard]] std::uint64_t tiles() const { return tiling_.tiles(); }
     [[nodiscard]] std::uint64_t ranks() const { return tile_.size(); }
 
-    /// Calls use(candidate, x, y), by rank, for the points of the tile whose score has at most the
-    /// bits `most`, and possibly for others.
+    /// Calls use(candidate, x, y), by rank, for the points of the tile whose score has bits up to
+    /// `most`, and possibly for others.
     template <class Use>
     void visit(std::uint64_t tile, std::uint64_t most, const Use& use) const {
         const double top = largest_[tile];
@@ -94,7 +94,7 @@ class TilesInWindow {
     std::vector<double> largest_;  ///< largest density in each tile
 };
 
-/// Number of tiles in a block.
+/// Number of tiles that a thread visits at a time.
 std::uint64_t block_of(const TilesInWindow& candidates) {
     return std::max<std::uint64_t>(1, (std::uint64_t{1} << 17) / candidates.ranks());
 }
@@ -128,8 +128,8 @@ Histogram histogram_of(const TilesInWindow& candidates, const Window& window,
     return all;
 }
 
-/// Bin of the window with the score of index `wanted` (from 0); sets `held` to the bin's number of
-/// scores. Returns nullopt if that score is outside the window.
+/// Bin of the window that holds the score of index `wanted` (from 0); sets `held` to the number of
+/// scores in the bin. Returns nullopt if the score is outside the window.
 std::optional<Window> narrowed(const Window& window, const Histogram& found, std::uint64_t wanted,
                                std::uint64_t& held) {
     if (wanted < found.before) return {};

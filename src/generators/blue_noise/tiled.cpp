@@ -2,7 +2,7 @@
 //
 // A tile of blue noise, repeated and thinned to n points. On the unit square
 //
-//     K x K tiles,  K = least with K^2 T >= n,  of  t = ceil(n / K^2) points,   T = --tile-points.
+//     K x K tiles of t = ceil(n / K^2) points,  K = min {k : k^2 T >= n},  T = --tile-points.
 //
 // The tile is toroidal Gaussian blue noise (relaxation/gaussian_relaxation.cpp) with ranked points:
 // the first m of them are well spread, for every m. Ranks are given from the last to the first:
@@ -18,15 +18,15 @@
 // rank 1, and so on. The last rank has only m = n - K^2 (t - 1) points, spread evenly over the
 // tiles: the j-th is in tile floor(j K^2 / m).
 //
-// --bounds    K x L tiles in a box that is not a square: nearly squares, and few more than needed.
-//             The tile is optimised with the proportions that it has in the box, so the set is
-//             even and periodic there. Points stay in [0, 1)^2 until they are scaled.
+// --bounds    in a box that is not a square, K x L nearly square tiles, few more than needed. The
+//             tile is optimised with the proportions that it has in the box, so the set is even and
+//             periodic there. Points stay in [0, 1)^2 until they are scaled.
 // --density   tiles of t = ceil((n + 2 sqrt(n)) top / K^2) points, top the largest density over its
 //             mean. Ranks are thresholds (thinned_tiles.hpp): of all points with a density above 0,
 //             the n with the least (rank + u) / density are kept, 0 <= u < 1 one number per tile.
-//             The 2 sqrt(n) points beyond n top keep regions of large density from running out; if
-//             too few, as in a picture as fine as the points, there are more tiles. Points are
-//             ordered by tile. A constant density has no effect.
+//             The 2 sqrt(n) points beyond n top keep regions of large density from running out. If
+//             they are too few, as for a picture as fine as the points, more tiles are used. Points
+//             are ordered by tile. A constant density has no effect.
 //
 // Shape   2-D. A sequence: point i is a function of i, n and the seed; memory for the tile only,
 //         and with a density 16 bytes for each repetition of it.
@@ -166,7 +166,7 @@ std::unique_ptr<Sequence> repeated(const std::vector<Vec2>& tile, const Tiling& 
     });
 }
 
-/// Tiling of at least `least` nearly square tiles, and few more, in a box with the given sides.
+/// Tiling of at least `least` nearly square tiles, but few more, in a box with the given sides.
 Tiling tiling_of(std::uint64_t least, Vec2 sides) {
     const double longer = std::max(sides.x, sides.y) / std::min(sides.x, sides.y);
     auto across =

@@ -16,7 +16,7 @@
 //         square, the shorter side is a power of two, the longer as many as make cells squares.
 // Promise point i does not depend on n when --size is given and --density is not.
 // Beware  points are on a grid: their spectrum repeats with periods W and H. --cell random avoids
-//         that, at some cost in evenness. A cell c with n density(c) > W H gets too few.
+//         that, at some cost in evenness. A cell c with n density(c) > W H gets too few points.
 // Source  R. Ulichney, "The void-and-cluster method for dither array generation", Proc. SPIE 1913
 //         (1993) 332-343, doi:10.1117/12.152707.
 
@@ -74,7 +74,7 @@ Torus torus_of(const std::vector<std::int64_t>& extents, const std::string& text
     return {static_cast<std::size_t>(extents[0]), static_cast<std::size_t>(extents[1])};
 }
 
-/// Torus with at least `cells` cells per point; cells are squares in a box of these proportions.
+/// Torus with at least `cells` cells per point, which are nearly square in a box of these sides.
 /// @throws Error(limit)
 Torus torus_for(double points, double cells, const std::vector<double>& proportions) {
     const double longer = proportions.empty() ? 1 : std::ranges::max(proportions);
@@ -110,7 +110,7 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-/// PNG of the ranks in 16 bits, top row first.
+/// 16-bit PNG of the scaled ranks, top row first.
 std::string mask_png(const Torus& torus, const std::vector<std::uint32_t>& order) {
     std::vector<std::uint16_t> samples(order.size());
     for (std::size_t rank = 0; rank < order.size(); ++rank) {

@@ -190,7 +190,7 @@ DigitMatrix of_rows(TokenFile& file, std::vector<std::uint64_t> line, std::uint3
     }
 }
 
-/// base^rows - 1; 0 if that exceeds 64 bits.
+/// Largest column as an integer, base^rows - 1; 0 if it exceeds 64 bits.
 std::uint64_t largest_column(const Header& header) {
     const std::uint64_t power = saturating_power(header.base, header.rows - 1);
     if (power - 1 > (~std::uint64_t{0} - (header.base - 1)) / header.base) return 0;

@@ -6,8 +6,8 @@
 //     sum_r i_r v_(r + u),    j = e Q + u,  0 <= u < e,    i = sum_r i_r b^r,
 //
 // modulo b. e is the degree of p_k, the k-th irreducible polynomial (in base 2: x, 1 + x,
-// 1 + x + x^2, ...). v = v(k, Q) begins with e Q zeros and e ones and obeys the linear recurrence of
-// p_k^(Q+1): it is the Laurent series of some g / p_k^(Q+1).
+// 1 + x + x^2, ...). v = v(k, Q) begins with e Q zeros and e ones and obeys the linear recurrence
+// of p_k^(Q+1): it is the Laurent series of some g / p_k^(Q+1).
 //
 // Shape   n x d for d <= 1000; indices below 2^52, or the largest power of b up to 2^50.
 // Cost    O(n d), in base 2 at the speed of the cache: see math/digital/binary_net.hpp and
@@ -103,8 +103,7 @@ std::vector<std::uint32_t> recurrence(const Polynomial& power, std::size_t zeros
     return v;
 }
 
-/// Number of digits of a coordinate: in base 2 more than in a double, as scrambling uses all of
-/// them.
+/// Digits of a coordinate: 64 in base 2, more than a double has, because scrambling uses them.
 std::size_t rows_in(std::uint32_t base) { return base == 2 ? 64 : net_digits(base); }
 
 DigitMatrix matrix_of(const Polynomial& p, std::uint32_t base) {

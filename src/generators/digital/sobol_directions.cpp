@@ -108,8 +108,7 @@ std::size_t take_header(TokenFile& file) {
     return alpha;
 }
 
-/// Interlaces the digits of alpha coordinates at a time: the first digit of each coordinate, then
-/// the second digit of each, ...
+/// Interlaces the digits of alpha coordinates at a time: first digits, then second digits, ...
 BinaryMatrices interlaced(const BinaryMatrices& matrices, std::size_t alpha) {
     BinaryMatrices woven{matrices.dimension / alpha, {}};
     for (std::size_t at = 0; at < matrices.columns.size(); at += alpha) {

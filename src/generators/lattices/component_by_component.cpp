@@ -92,7 +92,7 @@ std::vector<PrimePower> factors(std::uint64_t n) {
     return found;
 }
 
-/// Generator of a cyclic group of units, and the number of its powers.
+/// Generator of a cyclic group of units, and the group's order.
 struct Cycle {
     std::uint64_t generator;
     std::uint64_t order;
@@ -117,7 +117,7 @@ std::vector<Cycle> cycles_of(const PrimePower& q) {
     return {{primitive_root(q, order), order}};
 }
 
-/// Units modulo e, in the order of the exponents of their generators, the last one fastest.
+/// Units modulo e, ordered by the exponents of the generators, the last exponent fastest.
 struct Units {
     std::uint64_t modulus;
     std::vector<int> shape;
@@ -160,8 +160,7 @@ class Part {
         correlation_.take_kernel();
     }
 
-    /// Adds this part of E(z), up to a constant, to total[z] for z = 0, 1, ...; correct only for z
-    /// prime to n.
+    /// Adds this part of E(z) + constant to total[z], z = 0, 1, ...; correct only for z prime to n.
     void add(std::span<const double> p, std::vector<double>& total) {
         gather(p);
         correlation_.correlate();

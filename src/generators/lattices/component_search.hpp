@@ -52,8 +52,7 @@ class CyclicCorrelation {
     std::optional<GroupTransform> transform_;
 };
 
-/// Products p over the components so far, up to a common factor; the factor does not affect
-/// choices.
+/// Products p over the components so far, up to a common factor, which does not affect choices.
 class Products {
   public:
     explicit Products(std::size_t count) : p_(count, 1.0) {}
@@ -61,7 +60,7 @@ class Products {
     [[nodiscard]] std::span<double> all() { return p_; }
     [[nodiscard]] std::span<const double> all() const { return p_; }
 
-    /// Takes a power of two out of the products before they overflow.
+    /// Divides the products by a power of two before they overflow.
     void keep_in_range();
 
     [[nodiscard]] double mean() const;

@@ -35,7 +35,7 @@ TorusPacking packing_of(const Plan& plan) {
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values&, const RunContext&) {
     const TorusPacking packing = packing_of(plan);
-    const std::uint64_t gap = plan.count / packing.row_points;  // of neighbours in a row, in 1/n
+    const std::uint64_t gap = plan.count / packing.row_points;  // spacing within a row, in 1/n
     return sequence_of([packing, gap, box = plan.bounds, n = static_cast<double>(plan.count)](
                            std::uint64_t first, std::span<double> rows) {
         std::uint64_t row = first / packing.row_points;

@@ -40,7 +40,7 @@ inline constexpr Param<Choice> vector_format{
         "Format of --vector-output: LDData's (the default) or LatNet Builder's; --vector-file "
         "reads both"};
 
-/// Contents of a file with a lattice.
+/// Contents of a lattice file.
 struct VectorFile {
     std::vector<std::uint64_t> vector;
     std::uint64_t points = 0;    ///< 0: not in the file
@@ -67,12 +67,12 @@ void check_weights(const Values& options, bool searches, std::string_view search
 
 /// The first `dimension` components of the vector from an option or a file.
 /// @param range name of the allowed range in messages
-/// @throws Error(usage) if they are too few, or one is not an integer from `least` to `most`
+/// @throws Error(usage) if there are too few, or one is not an integer from `least` to `most`
 std::vector<std::uint64_t> given_components(const Values& options, const VectorFile& file,
                                             const Param<Numbers>& vector, std::size_t dimension,
                                             double least, double most, std::string_view range);
 
-/// Weights of the `dimension` coordinates. @throws Error(usage) if fewer, or outside (0, 10^6]
+/// Weights of all coordinates. @throws Error(usage) if some are missing or outside (0, 10^6]
 std::vector<double> weights_of(const Values& options, std::size_t dimension);
 
 }  // namespace stipple

@@ -77,7 +77,7 @@ class Search {
     }
 
   private:
-    /// omega of the product of unit a and q, for a = 0, 1, ...
+    /// omega(g^a q mod modulus) for a = 0, 1, ..., where g generates the units.
     [[nodiscard]] const double* kernel_from(std::uint64_t q) const {
         return kernel_.data() + exponents_[q];
     }
@@ -95,8 +95,8 @@ class Search {
     std::vector<std::uint32_t> units_;      ///< powers of a generator of the units
     std::vector<std::uint32_t> exponents_;  ///< exponent of each unit
     CyclicCorrelation correlation_;
-    Products products_;           ///< products p_i, by exponent of i
-    std::vector<double> kernel_;  ///< omega by exponent, for two periods
+    Products products_;           ///< products p_i, indexed by the exponent of i
+    std::vector<double> kernel_;  ///< omega(g^a), for two periods of the exponent a
     double kernel_norm_ = 0;
 };
 

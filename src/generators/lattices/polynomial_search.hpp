@@ -27,11 +27,10 @@ namespace stipple {
 /// Largest degree of the modulus for which vectors are searched.
 inline constexpr int largest_searched_degree = 22;
 
-/// omega of a coordinate, as above.
+/// omega(x) of the formula above.
 double digital_shift_kernel(double x);
 
-/// Mean square of the worst-case errors of all digital shifts of a polynomial lattice of all
-/// 2^deg(modulus) points, in the space with the given weights.
+/// e^2 of the polynomial lattice with all 2^deg(modulus) points, for the given weights.
 double squared_polynomial_error(std::uint64_t modulus, std::span<const std::uint64_t> vector,
                                 std::span<const double> weights);
 

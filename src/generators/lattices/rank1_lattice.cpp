@@ -9,14 +9,14 @@
 //     cbc        component by component, each minimising the worst-case error in the weighted
 //                Korobov space of smoothness 2 (component_by_component.hpp); no component repeats
 //                until all candidates are used;
-//     korobov    (1, a, a^2, ...) mod n with a given multiplier a, or the best in that space;
+//     korobov    (1, a, a^2, ...) mod n with a given multiplier a, or the best one by that error;
 //     fibonacci  (1, F_(k-1)) for n = F_k, the best vector in two dimensions;
 //     vector     given.
 //
 // The weights of the coordinates are given or are j^-decay.
 //
 // Shape   n x d; n <= 2^53, and n <= 2^24 if a rule searches. fibonacci: d <= 2.
-// Cost    O(n d), one division a coordinate. cbc: 3 s at n = 2^20, d = 100; 7 s at the prime below.
+// Cost    O(n d): a division each. cbc at d = 100: 3 s for n = 2^20, 7 s for the next lower prime.
 // Promise every coordinate is correctly rounded, and below 1. The points are closed under addition
 //         modulo 1. A rule gives the same vector on every machine.
 // Source  I. H. Sloan, S. Joe, Lattice Methods for Multiple Integration, Oxford 1994; cbc:
@@ -85,7 +85,7 @@ double multiple(std::uint64_t i, std::uint64_t z, std::uint64_t n) {
     return static_cast<double>(static_cast<std::uint64_t>(Wide{i} * z % n));
 }
 
-/// Whether the rule korobov has to search a multiplier.
+/// Whether the rule korobov has to search for a multiplier.
 bool searches_multiplier(const std::string& chosen, const Values& options) {
     return chosen == "korobov" && !options.given(multiplier);
 }
@@ -98,7 +98,7 @@ std::uint64_t tries_of(const Plan& plan, const Values& options) {
     return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(tries));
 }
 
-/// Rule that follows from all options.
+/// Rule in use: --rule, or the rule implied by a given vector or multiplier.
 std::string rule_of(const Values& options) {
     if (options.given(rule)) return options[rule];
     if (options.given(vector) || options.given(vector_file)) return "vector";

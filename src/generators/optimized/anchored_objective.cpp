@@ -22,16 +22,16 @@
 namespace stipple::optimized {
 namespace {
 
-/// Box, given by the ranks of its corner's coordinates (n for 1).
+/// Box, given by the ranks of its corner's coordinates; rank n is the coordinate 1.
 struct Hit {
     std::uint32_t at[3];
     float value;
     bool open;
 };
 
-/// Counts of points in rows, one row for each value of the second last coordinate. For the boxes of
-/// each row, `reaches` has the volume per unit of the last coordinate, and `shares` the fraction
-/// 1/n of one point; both times the box's weight, and negated for closed boxes.
+/// Counts of points in rows, one row per value of the second to last coordinate. For the boxes of a
+/// row, `reaches` is the volume per unit of the last coordinate and `shares` is 1/n, both times the
+/// box's weight, and negated for closed boxes.
 struct Plane {
     const float* counts;
     std::size_t stride;
@@ -75,7 +75,6 @@ STIPPLE_WIDE void find_above(const Plane& plane, const float* values, float leas
     }
 }
 
-/// Increments `size` counts of a row.
 STIPPLE_WIDE void add_one(float* counts, std::size_t size) {
     for (std::size_t k = 0; k < size; ++k) counts[k] += 1;
 }

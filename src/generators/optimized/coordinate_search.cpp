@@ -33,7 +33,7 @@ double wraparound_sum(std::size_t count, const std::vector<std::size_t>& vector)
     return sum;
 }
 
-/// Number of random vectors to try: grows with the number of distinct ones, so that few repeat.
+/// Number of random vectors to try; grows with the number of distinct vectors, so that few repeat.
 std::size_t vectors_to_draw(std::size_t count, std::size_t dimension) {
     double all = 1;
     for (std::size_t j = 1; j < dimension; ++j) all *= static_cast<double>(count);
@@ -74,8 +74,7 @@ class Adam {
   public:
     explicit Adam(std::size_t size) : mean_(size), square_(size) {}
 
-    /// Moves the coordinates from index `first` on, each by at most about `rate`, within the unit
-    /// cube.
+    /// Moves coordinates from index `first` on by at most about `rate` each, within the unit cube.
     void step(std::span<double> x, std::span<const double> gradient, double rate,
               std::size_t first) {
         mean_left_ *= memory;
@@ -105,7 +104,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Returns the best set at the end of a round of a descent or, if a stop ends the first round and
 /// the run keeps the best, the best set so far. If the first round ends above `enough`, the result
-/// has no rows, and its value may be too small, as a certain one can take longer than the descent.
+/// has no rows and its value may be too small, because certain_value() is not called.
 OptimizedRows descend(std::vector<double> rows, const CoordinateSearch& search,
                       const Schedule& schedule, double enough, const RunContext& run) {
     const std::unique_ptr<Objective> objective = search.objective();
@@ -189,7 +188,7 @@ class Population {
         polish();
     }
 
-    /// Requires memory for the sets kept, for those that follow them and for the data of descents.
+    /// Requires memory for the sets kept, their successors and the descents.
     void need_memory() const {
         const auto sets = static_cast<double>(most_sets_);
         const double at_once = std::min(sets, static_cast<double>(run_.thread_count()));
@@ -202,7 +201,7 @@ class Population {
     static constexpr double starts_share = 0.4;
     static constexpr double polish_share = 0.05;
 
-    /// Largest number of sets for a budget of `values` objective values: each has time to improve.
+    /// Largest number of sets for a budget of `values` objective values, so that each can improve.
     static std::size_t sets_for(double values) {
         return static_cast<std::size_t>(std::clamp(values / 3000, 2.0, 16.0));
     }
@@ -227,7 +226,6 @@ class Population {
                    search_.from_start);
     }
 
-    /// Adds the given start unchanged.
     void add_given() {
         SplitMix64 own = draws();
         OptimizedRows given{search_.start(0, own), 0};
@@ -237,7 +235,7 @@ class Population {
         all_.push_back(std::move(given));
     }
 
-    /// Rows of the best one of several candidates for the start of this index.
+    /// Rows of the best of several candidates for start number `start`.
     [[nodiscard]] std::vector<double> first_rows(std::size_t start, SplitMix64 draws) const {
         const std::size_t sets = search_.one_start ? 1 : search_.sets_a_start;
         OptimizedRows least{{}, infinity};

@@ -36,13 +36,13 @@ std::vector<double> golden_rows(std::size_t count, std::size_t dimension, SplitM
 std::vector<double> lattice_rows(std::size_t count, std::size_t dimension, SplitMix64& draws,
                                  const RunContext& run);
 
-/// Rows of i / n, shifted at random, followed by the first points of Sobol's sequence with Owen
-/// scrambling; a net if the count is a power of two. The dimension is at least 2.
+/// Rows (i / n + random shift, point i of Sobol's sequence with Owen scrambling); a net if the
+/// count is a power of two. The dimension is at least 2.
 std::vector<double> net_rows(std::size_t count, std::size_t dimension, SplitMix64& draws);
 
 // Searches.
 
-/// Parameters of a descent, changed geometrically from its first step to its last.
+/// Parameters of a descent; rate and sharpness change geometrically from first to last.
 struct Schedule {
     std::size_t steps;
     double first_rate;  ///< largest change of a coordinate in one step
@@ -67,8 +67,8 @@ struct CoordinateSearch {
     std::size_t sets_a_start = 16;
 };
 
-/// Runs the search. Progress notes begin with `words` and have the latest and the lowest value so
-/// far, as Objective::reported() converts them.
+/// Runs the search. Progress notes begin with `words`, then give the latest and the lowest value so
+/// far, converted by Objective::reported().
 /// @throws Error(cancelled)
 OptimizedRows search_coordinates(const CoordinateSearch& search, const std::string& words,
                                  const RunContext& run);

@@ -58,7 +58,6 @@ struct Factor {
     double total;
 };
 
-/// Factors of all axes.
 std::vector<Factor> factors_of(l2::Kind kind, const l2::AxisWeights& weights,
                                std::size_t dimension) {
     const bool alone = l2::is_kernel_alone(kind, weights);
@@ -249,7 +248,7 @@ class Greedy {
     const std::vector<double>& rows_;
     std::size_t d_;
     std::vector<Factor> factors_;
-    std::vector<double> sums_;  ///< of each point's kernels with the points already taken
+    std::vector<double> sums_;  ///< sum of each point's kernels with the points taken so far
     std::vector<bool> taken_;
     std::vector<double> means_;
     std::vector<double> own_;

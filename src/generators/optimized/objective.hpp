@@ -16,7 +16,6 @@
 
 namespace stipple::optimized {
 
-/// Result of a search.
 struct OptimizedRows {
     std::vector<double> rows;
     double value = 0;
@@ -46,7 +45,7 @@ class Objective {
         return known;
     }
 
-    /// Elementary steps of one value; a core does about 10^9 per second.
+    /// Cost of one value in elementary steps; a core does about 10^9 per second.
     [[nodiscard]] virtual double steps() const = 0;
 
     /// Value for reports: the square root of `value` for L2 objectives, `value` itself for others.

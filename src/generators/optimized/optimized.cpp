@@ -191,7 +191,7 @@ bool is_known(const Plan& plan, const Values& options) {
            (plan.count == 1 && !is_l2(options) && !options.given(axis_weights));
 }
 
-/// Whether the search varies the orders of planar points (order_search.hpp), not coordinates.
+/// Whether the search varies the orders of planar points (order_search.hpp) instead of coordinates.
 bool by_orders(const Plan& plan, const Values& options) {
     return options[objective] == "star" && plan.dimension == 2 && !options.given(from) &&
            !options.given(initial) && !options.given(axis_weights);
@@ -308,7 +308,7 @@ Bounds weighted_star(const PointSet& points, const std::vector<double>& weights,
             if ((axes >> j & 1) != 0) times *= weights[j];
         return times;
     };
-    std::vector<double> upper(all + 1, 1);  // upper bounds by sets of axes
+    std::vector<double> upper(all + 1, 1);  // upper bounds, indexed by set of axes
     Bounds worst{0, 0};
     for (std::uint64_t axes = all; axes > 0; --axes) {
         for (std::size_t j = 0; j < d; ++j)
@@ -323,7 +323,7 @@ Bounds weighted_star(const PointSet& points, const std::vector<double>& weights,
     return worst;
 }
 
-/// Bounds of the value of the points, as the analyzers compute it.
+/// Bounds of the objective for the points, computed as by the analyzers.
 /// @param work comparisons that a search for the worst box may take
 Bounds judged(const PointSet& points, const Values& options, std::uint64_t work,
               const RunContext& run) {
@@ -411,9 +411,9 @@ std::vector<double> on_the_line(std::size_t n, bool empty, const RunContext& run
     return rows;
 }
 
-/// Coordinate x of the best single point (x, ..., x) for boxes at the origin. Its largest empty box
-/// has the volume x, and the closed box that ends at it has a volume below its share of points, 1,
-/// by 1 - x^d. The two discrepancies are equal if x + x^d = 1.
+/// Coordinate x of the best single point (x, ..., x) for boxes at the origin. The largest empty box
+/// has the volume x; the closed box up to the point has the volume x^d and holds all points. Both
+/// discrepancies, x and 1 - x^d, are equal if x + x^d = 1.
 double coordinate_for_star(std::size_t dimension) {
     double low = 0;
     double high = 1;

@@ -26,7 +26,6 @@ constexpr double kick_height = 0.2;     ///< largest relative rise of the level 
 constexpr std::size_t kick_swaps = 20;  ///< largest number of swaps in a kick
 constexpr double solution = 30;         ///< steps to solve one order, divided by n^2
 
-/// State of a descent: an order and its level.
 struct Descent {
     Ranks ranks;
     double level = std::numeric_limits<double>::infinity();
@@ -34,7 +33,6 @@ struct Descent {
     std::vector<double> rows = {};  ///< points with that level; empty unless the run keeps the best
 };
 
-/// State of a descent that has reached `order`.
 Descent reached(const PlanarOrder& order, bool over, const RunContext& run) {
     return {order.ranks(), order.level(), over,
             run.keeps_best ? order.points() : std::vector<double>()};
@@ -81,7 +79,7 @@ Ranks lattice_cut(std::size_t n, SplitMix64& draws) {
     const double up = unit(draws);
     const double wide = 1 / (k * t);
     const double high = t / k;
-    // a + b / golden is in [-right, 1 - right) wide, a - b golden in [-up, 1 - up) high
+    // Bounds: a + b / golden in wide * [-right, 1 - right), a - b golden in high * [-up, 1 - up).
     const double spread = golden + 1 / golden;
     const auto first =
         static_cast<std::int64_t>(std::floor((-right * wide - (1 - up) * high) / spread));

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double slack = 1e-13;      ///< relative tolerance of bounds
 constexpr std::size_t lanes = 64;    ///< bounds tested at once
-constexpr std::uint64_t entry = 32;  ///< steps charged for starting a row of bounds
+constexpr std::uint64_t entry = 32;  ///< steps counted for the overhead of a row of bounds
 
 /// Writes the indices k < size with (counts[k] - level) * scale > values[k] * reach to `hits` and
 /// returns their number. With negated level, scale and reach it finds those with (counts[k] +
@@ -331,8 +331,8 @@ void PlanarOrder::lower() {
 
 // ---------------------------------------------------------------- swaps
 
-/// Enforces the bounds that a swap has tightened: those of closed boxes if the boxes changed hold
-/// more points, those of open boxes if they hold fewer.
+/// Enforces the bounds that a swap has tightened: those of closed boxes if the changed boxes hold
+/// more points, those of open boxes if fewer.
 void PlanarOrder::tighten(const Swap& swap, bool more) {
     const auto [by_x, p] = swap;
     if (by_x == more) return push(static_cast<Node>(by_x ? p : n_ + p + 1));

@@ -36,8 +36,7 @@ class PlanarOrder {
     /// For each point in the order of x, its rank by y, from 0.
     using Ranks = std::vector<std::uint32_t>;
 
-    /// Exchange of neighbours in the order of x or of y: those with the ranks `at` and at + 1, from
-    /// 1.
+    /// Exchange of the neighbours with ranks `at` and at + 1 (from 1) in the order of x or of y.
     struct Swap {
         bool by_x;
         std::size_t at;
@@ -58,9 +57,9 @@ class PlanarOrder {
     /// ends at the rim.
     std::optional<Swap> critical_swap(SplitMix64& draws) const;
 
-    /// Makes the swap if the level is then at most `limit`; returns whether it did. Gives up if
-    /// more than n coordinates move. If `critical`, the swap must also lower the level at which the
-    /// current cycle becomes consistent.
+    /// Makes the swap if the level is then at most `limit`; returns whether it was made. Gives up
+    /// if more than n coordinates move. If `critical`, the swap must also lower the level at which
+    /// the current cycle becomes consistent.
     bool attempt(const Swap& swap, double limit, bool critical = false);
 
     /// Number of comparisons of bounds so far.
@@ -69,8 +68,7 @@ class PlanarOrder {
   private:
     enum class Outcome { feasible, cycle, given_up };
 
-    /// Index of a coordinate: i for x_i, n + j for y_j, 0 for the common value 1 of x_{n+1} and
-    /// y_{n+1}.
+    /// Index of a coordinate: i for x_i, n + j for y_j, 0 for x_{n+1} = 1 and y_{n+1} = 1.
     using Node = std::uint32_t;
     struct Bound {  ///< bound set by the box with the count c(i, j)
         bool open;
@@ -119,7 +117,7 @@ class PlanarOrder {
     std::vector<Bound> saved_;
 
     std::vector<Node> from_;              ///< for a node moved in this era: the node that bounds it
-    std::vector<std::uint8_t> by_order_;  ///< whether that is its neighbour in the order
+    std::vector<std::uint8_t> by_order_;  ///< whether that node is its neighbour in the order
     std::vector<std::uint32_t> moved_in_;
     std::uint32_t era_ = 0;
     Node met_ = 0;  ///< node at which a cycle closed

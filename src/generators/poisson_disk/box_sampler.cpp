@@ -51,7 +51,7 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
         this->pending = {};
     }
 
-    /// Collects the points whose disks overlap a cell, relative to its corner, in radii.
+    /// Collects the points whose disks overlap a cell, relative to the cell's corner, in radii.
     template <class Real>
     void gather(const Cell& cell, NearDisks<D, Real>& near) const {
         near.clear();
@@ -77,7 +77,7 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
     }
 
   private:
-    static constexpr double reaching = 1 + 1e-9;  ///< squared radius, 1, with room for rounding
+    static constexpr double reaching = 1 + 1e-9;  ///< squared radius with a margin for rounding
 
     /// A point whose disk overlaps the tile.
     struct Near {
@@ -151,7 +151,7 @@ class BoxSampler {
         }
     }
 
-    /// Throws darts at the open sub-cells of a gap; adds gaps around these to the workspace.
+    /// Throws darts at a gap's open sub-cells; adds gaps around these sub-cells to the workspace.
     template <class Real>
     void throw_at(const T& tile, const Gap<D>& gap, const PoissonCounts& counts, std::uint64_t key,
                   Workspace& work, const NearDisks<D, Real>& near,

@@ -29,7 +29,6 @@ inline constexpr std::size_t subcells = D == 2   ? 8
                                         : D == 3 ? 4
                                                  : 2;
 
-/// Number of sub-cells in a gap.
 template <std::size_t D>
 inline constexpr std::size_t all_subcells = power(subcells<D>, D);
 
@@ -87,7 +86,7 @@ struct Extent {
     }
 };
 
-/// Splits a gap into halves along every direction, and adds those with open sub-cells.
+/// Splits a gap into halves along every direction; adds the parts with open sub-cells to `out`.
 template <std::size_t D>
 void split(const Gap<D>& gap, SubcellBits open, std::vector<Gap<D>>& out) {
     constexpr std::size_t p = subcells<D>;

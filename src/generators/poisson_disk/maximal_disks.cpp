@@ -52,8 +52,7 @@ double memory_for(const std::vector<double>& along, bool fine, double points) {
     }
     // Memory of points and their copies, and of gaps, at first one per cell.
     if (!fine) return points * (5 * 8 * d) + 2 * cells * (8 * d + 8);
-    // Memory of the tiles' tables, of points with their copies in other tiles and pending darts,
-    // and of gaps.
+    // Memory of tables, of points with copies in other tiles and pending darts, and of gaps.
     return along.size() == 2 ? tiles * plane_tile_bytes + 45 * points + 4 * cells
                              : tiles * space_tile_bytes + 140 * points;
 }

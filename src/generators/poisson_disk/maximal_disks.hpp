@@ -35,7 +35,7 @@
 
 namespace stipple::poisson_disk {
 
-/// Approximate number of points.
+/// Approximate number of points of a maximal disk set.
 double expected_disks(const BoxSpace& space, double radius);
 
 /// Makes the points, in an arbitrary but reproducible order.

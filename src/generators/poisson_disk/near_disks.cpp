@@ -50,8 +50,7 @@ template <std::size_t D, class Real>
 [[gnu::always_inline]] inline float within_int(float x) { return x; }
 [[gnu::always_inline]] inline double within_int(double x) { return std::clamp(x, -1e9, 1e9); }
 
-/// First boundary of sub-cells at or after x, in 0 ... P; last_end() is the last one at or before
-/// x.
+/// First sub-cell boundary (0 ... P) at or after x; last_end() gives the last at or before x.
 template <std::size_t D, class Real>
 [[gnu::always_inline]] inline std::int32_t next_end(Real x) {
     const auto whole = static_cast<std::int32_t>(within_int(x));

@@ -29,7 +29,7 @@ namespace stipple::poisson_disk {
 /// Bound on rounding errors of floats in distances to a rim, for coordinates of a few radii.
 inline constexpr float float_slack = 4e-6F;
 
-/// Centres of disks, one direction after the other, padded with eight far ones.
+/// Centres of disks, one direction after the other, padded with eight far centres.
 template <std::size_t D, class Real>
 class NearDisks {
   public:

@@ -20,7 +20,7 @@ enum class Status : std::uint8_t { pending, accepted, rejected };
 template <std::size_t D>
 struct PendingDart {
     std::array<double, D> at;
-    std::uint32_t time;   ///< within the round
+    std::uint32_t time;   ///< arrival time within the round
     std::uint16_t place;  ///< index of its cell in the tile
 
     /// Several threads may read and set the status at once: all set the same value.

@@ -9,7 +9,7 @@
 namespace stipple::poisson_disk {
 namespace {
 
-constexpr double most_at_once = 16;  ///< largest mean for inversion; larger ones are split
+constexpr double most_at_once = 16;  ///< largest mean for inversion; a larger mean is split
 
 constexpr auto inverses = [] {
     std::array<double, 64> table{};

@@ -24,7 +24,6 @@ class PoissonCounts {
         return mean_ * static_cast<double>(parts);
     }
 
-    /// Draws the number of darts on a region of `parts` parts.
     [[nodiscard]] std::uint64_t draw(std::size_t parts, SplitMix64& mixer) const {
         const double u = to_unit(mixer.next());
         if (parts < none_.size()) {

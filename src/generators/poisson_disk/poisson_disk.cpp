@@ -164,7 +164,7 @@ RadiusField read_field(const BoxSpace& space, const Values& options, const RunCo
     return {space.box, source, run};
 }
 
-/// Makes points with varying radii; the packing has the smallest of these as its radius.
+/// Makes points with varying radii; the packing's radius is the smallest radius.
 Packing pack_varied(const BoxSpace& space, const RadiusField& field, const Plan& plan,
                     const Values& options, const RunContext& run) {
     const auto fill = [&](double r, double cells, std::uint64_t seed, const RunContext& part) {

@@ -19,8 +19,8 @@ class Search {
     Search(const SearchGoal& goal, const Pack& pack, const RunContext& run)
         : goal_(goal), pack_(pack), run_(run), dimension_(goal.dimension), count_(goal.count) {}
 
-    /// Tries several random streams of a seed one after the other until one gives exactly the
-    /// count. If none does, removes the surplus of the set with the largest radius, with a note.
+    /// Tries several random streams of a seed until one gives exactly the count. If none does,
+    /// removes surplus points from the set with the largest radius and adds a note.
     Packing find(std::uint64_t seed) {
         constexpr std::uint64_t streams = 8;
         for (std::uint64_t stream = 0; stream < streams; ++stream)
@@ -64,7 +64,7 @@ class Search {
         return found;
     }
 
-    /// Radius that should lead to the count; a middle one if that is outside the known bounds.
+    /// Radius that should lead to the count; the middle of the known bounds if it is outside them.
     [[nodiscard]] double next(double r, std::uint64_t found) const {
         const double ratio = static_cast<double>(found) / static_cast<double>(count_);
         const double step = (ratio - 1) / static_cast<double>(dimension_);

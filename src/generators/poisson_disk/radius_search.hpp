@@ -23,7 +23,6 @@ struct Packing {
 using Pack = std::function<Rows(double radius, double cell_radius, std::uint64_t seed,
                                 const RunContext& run)>;
 
-/// Goal of a search.
 struct SearchGoal {
     std::uint64_t count;
     std::size_t dimension;

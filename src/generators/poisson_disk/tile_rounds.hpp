@@ -3,10 +3,10 @@
 // Common parts of the samplers that work tile by tile: rounds of darts, and the exchange of points
 // between tiles.
 //
-// Only one thread changes a tile. In each round the tile first takes over the accepted darts of the
-// last round, its own and those near its faces; then darts are thrown at it, and those that no
-// point excludes are pending. After that is done for all tiles, pending darts are decided: a dart
-// is kept unless an earlier one that is too near is kept, which is decided recursively, across
+// Only one thread at a time changes a tile. In each round the tile first takes over the accepted
+// darts of the last round, its own and those near its faces; then darts are thrown at the tile, and
+// those that no point excludes are pending. After all tiles are done, pending darts are decided: a
+// dart is kept unless an earlier one that is too near is kept, which is decided recursively, across
 // tiles. The result does not depend on the order of decisions, and so not on threads.
 #pragma once
 
@@ -84,8 +84,7 @@ class Tile {
     }
 
     /// Position of a point in its cell, in cell sides from the cell's corner.
-    /// @param cell the point's cell, relative to the tile's first; on the torus possibly beyond the
-    /// box
+    /// @param cell offset of p's cell from the tile's first cell; on a torus maybe beyond the box
     [[nodiscard]] Point in_cell(const Grid<D>& grid, const Point& p, const Cell& cell) const {
         Point place;
         for (std::size_t k = 0; k < D; ++k) {
@@ -105,8 +104,8 @@ class Tile {
         return static_cast<std::size_t>(mean + std::sqrt(mean) / 2 + 1);
     }
 
-    /// A tile within a radius of this one, and the offset from this tile's first cell to that of
-    /// the neighbour. On a small torus, several may be images of the same tile, or of this one.
+    /// A tile within a radius of this one, and the offset from this tile's first cell to the
+    /// neighbour's. On a small torus, several neighbours may be images of one tile, or of this one.
     struct Neighbour {
         std::uint32_t number;
         Cell steps;
@@ -117,7 +116,7 @@ class Tile {
     std::vector<Gap<D>> gaps;        ///< possibly uncovered regions, once known
 
   protected:
-    Index first_{};  ///< first cell in the grid
+    Index first_{};  ///< grid index of the first cell
     Cell size_{};
     std::vector<double> points_;
 };
@@ -185,7 +184,6 @@ class TileRounds {
         std::iota(open_.begin(), open_.end(), 0U);
     }
 
-    /// Makes the tiles by make(number).
     template <class Make>
     void make_tiles(const Make& make) {
         for_open([&](T& tile, std::uint32_t number) {
@@ -218,8 +216,7 @@ class TileRounds {
     /// Runs rounds until no tile has gaps. draw(tile, counts, key, workspace, first) throws the
     /// darts of a round and puts the remaining gaps into the workspace. `counts` has an entry for
     /// each level of gaps; `first` is true in the first round, when gaps are not known yet.
-    /// @param density darts per r^D in the first round; each further round has `growth` times as
-    /// many
+    /// @param density darts per r^D in the first round, multiplied by `growth` in each further one
     template <class Draw>
     void close_gaps(double density, double growth, const Draw& draw) {
         for (bool first = true; !open_.empty(); first = false, density *= growth) {
@@ -299,8 +296,7 @@ class TileRounds {
                        [&](const Block& b) { work(tiles_[open_[b.first]], open_[b.first]); });
     }
 
-    /// Tiles along direction k within a radius of tile `own`, and the offsets in cells from its
-    /// first cell to theirs.
+    /// Tiles along direction k within a radius of tile `own`, and the offsets from its first cell.
     [[nodiscard]] std::vector<std::pair<std::uint32_t, int>> neighbours_along(
         std::size_t k, std::uint32_t own) const {
         const Grid<D>& grid = task_.grid;

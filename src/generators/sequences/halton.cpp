@@ -103,7 +103,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
         });
 }
 
-/// Faure's permutations of all bases, one after the other, and where each begins.
+/// Faure's permutations of all bases, one after the other, and the index at which each begins.
 std::vector<Constants> constants(const Plan& plan, const Values&, const RunContext&) {
     Constants images{"images", {}, true};
     Constants begins{"begins", {}, true};

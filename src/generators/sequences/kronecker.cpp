@@ -105,8 +105,7 @@ Wide fraction(double x) {
     return x < 0 ? -bits : bits;
 }
 
-/// Fractional part of the square root of an integer: that of the root rounded to a double, plus the
-/// rounding error.
+/// Fractional part of an integer's square root: that of the root in float64, plus the root's error.
 Wide fraction_of_root(std::uint64_t p) {
     const auto square = static_cast<double>(p);
     const double root = std::sqrt(square);
@@ -175,7 +174,7 @@ std::vector<Constants> constants(const Plan& plan, const Values& options, const 
     return {steps, begin};
 }
 
-/// Returns a note if points repeat within the count, as all steps are multiples of a power of 1/2.
+/// Returns a note if points repeat within the count, because all steps are multiples of some 2^-k.
 std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
                                const Values& options) {
     Wide bits = 0;

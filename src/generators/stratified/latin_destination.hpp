@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Positions of a Latin hypercube's points in their strata; and preparations for the search for one
-// whose points become parameters, some of which may be discrete or under constraints.
+// Positions of a Latin hypercube's points in their strata; and preparation of the search for a
+// hypercube whose points become parameters, which may be discrete or under constraints.
 //
 // Outcomes     of discrete parameters: distances along their axes are those of outcomes, with all
 //              categories equally far apart, and points are in the middles of their strata.
-// Constraints  all points satisfy them. The search begins with exchanges of strata until they do.
-//              If that fails, as for x + y < 1, which no Latin hypercube with strata of equal width
-//              satisfies, the strata of each axis hold equal fractions of the points of the cube
-//              that satisfy them, estimated from at least 16 random ones per stratum.
+// Constraints  The search begins with exchanges of strata until all points satisfy them. If that
+//              fails, as for x + y < 1, which no Latin hypercube with strata of equal width
+//              satisfies, the strata of each axis hold equal fractions of the cube's points that
+//              satisfy the constraints, estimated from at least 16 random ones per stratum.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ class LatinPlaces {
     /// Sets the boundaries of the strata along each coordinate, including both ends.
     void put_between(std::vector<std::vector<double>> edges) { edges_ = std::move(edges); }
 
-    /// Coordinate of point i along axis `coordinate`, on which the point is in this stratum.
+    /// Coordinate of point i along axis `coordinate`, on which the point is in `stratum`.
     [[nodiscard]] double at(std::size_t coordinate, std::uint64_t i, double stratum) const;
     [[nodiscard]] double middle(std::size_t coordinate, double stratum) const;
 

@@ -343,8 +343,7 @@ search::Design extended(const PointSet& given, std::size_t count, const Rng& rng
     return design;
 }
 
-/// Number of the `count` strata along a coordinate that hold two or more points; a coordinate of 1
-/// belongs to the last.
+/// Number of strata along a coordinate with two or more points; x = 1 is in the last stratum.
 std::size_t crowded_strata(const PointSet& given, std::size_t coordinate, std::size_t count) {
     return static_cast<std::size_t>(std::ranges::count_if(
         held(given, coordinate, count), [](std::size_t points) { return points > 1; }));

@@ -89,7 +89,7 @@ class MultiJittered {
     std::uint64_t count_;
     std::uint64_t columns_;
     std::uint64_t rows_;  ///< number of full rows
-    std::uint64_t rest_;  ///< points in the last row, if it is not full
+    std::uint64_t rest_;  ///< number of points in the last, partial row; 0 if all are full
     std::uint64_t phase_ = 0;
     std::uint64_t turn_ = 0;
     PermutationFamily in_short_columns_;

@@ -26,7 +26,7 @@ enum class StratifiedStream : std::uint64_t {
 constexpr std::size_t block_numbers = 4096;
 constexpr std::size_t least_block = 256;
 
-// Number of coordinates that are written to the rows at a time, a cache line.
+// Number of coordinates written to the rows at a time: a cache line.
 constexpr std::size_t together = 8;
 
 Rng numbers_of(const Plan& plan, StratifiedStream first, std::uint64_t stream) {

@@ -43,7 +43,6 @@ struct StratifiedStyle {
     bool shuffled;
 };
 
-/// Style according to --centered and --order.
 inline StratifiedStyle style_of(const Values& options) {
     return {.centered = options[centered_option], .shuffled = options[order_option] == "shuffled"};
 }
@@ -59,15 +58,14 @@ std::unique_ptr<Sequence> stratified_sequence(const Plan& plan, const Stratified
 double place_in_stratum(const Plan& plan, bool centered, std::size_t coordinate,
                         std::uint64_t index, double stratum, std::uint64_t parts);
 
-/// Random numbers for a unit's own use; streams are numbered from 0.
+/// Random numbers for a generator's own use; streams are numbered from 0.
 Rng stratified_numbers(const Plan& plan, std::uint64_t stream);
 
 /// Number of columns for `count` points: that of --shape, if given; otherwise the largest divisor
 /// of the count in [sqrt(count / 2), sqrt(count)]; floor(sqrt(count)) if there is no such divisor.
 std::uint64_t jitter_columns(std::uint64_t count, const Values& options);
 
-/// The number of columns, and that of points in the last row if it is not full, for
-/// Generator::constants.
+/// For Generator::constants: number of columns, and of points in the last row if it is not full.
 std::vector<Constants> column_constant(const Plan& plan, const Values& options, const RunContext&);
 
 /// Plan with the product of the sides as count, and their number as dimension.

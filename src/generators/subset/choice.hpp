@@ -53,8 +53,7 @@ StarBounds star_discrepancy(const PointSet& points, const Rows& rows, const RunC
 Rows choose_by_star(const PointSet& points, Rows start, std::uint64_t measures, std::uint64_t seed,
                     const RunContext& run);
 
-/// Reduces the largest star discrepancy among `sets`, a partition of the points, by exchanging
-/// points between them.
+/// Reduces the largest star discrepancy of `sets`, a partition of the points, by exchanges.
 void even_out_by_star(const PointSet& points, std::vector<Rows>& sets, std::uint64_t measures,
                       std::uint64_t seed, const RunContext& run);
 

@@ -209,7 +209,7 @@ class Herding {
         return {found, first + static_cast<std::size_t>(at - scores.data())};
     }
 
-    /// Adds point j to the potentials and subtracts the point of the last scan(remove).
+    /// Adds K(x_j, .) to the potentials, and subtracts that of the point of the last scan(remove).
     void exchange(std::size_t j) {
         constexpr std::size_t tiles = 32;
         points_.row(j, row_.data());
@@ -252,7 +252,6 @@ class Herding {
         }
     }
 
-    /// Exchanges some points at random.
     void perturb() {
         const std::size_t most = std::max<std::size_t>(1, n_ / 4);
         const std::size_t some = 2 + draw(most);

@@ -7,7 +7,7 @@
 //
 //     2 (K_ii + K_jj - 2 K_ij - D_i + D_j),    D_x = sum_(a in A) K(x, a) - sum_(b in B) K(x, b),
 //
-// so for each i in turn the best j is taken. The means of K are not needed, since all points stay.
+// so for each i in turn the best j is exchanged. The means of K are not needed: all points stay.
 //
 // Cost    some 8 n^2 values of K per pair. Every round roughly halves the squared discrepancies,
 //         until they are those of n well-chosen points.
@@ -58,8 +58,7 @@ class Trade {
         }
     }
 
-    /// Exchanges points until no exchange helps, in at most 8 sweeps; returns the number of
-    /// exchanges.
+    /// Exchanges points until no exchange helps, in at most 8 sweeps; returns their number.
     std::size_t go() {
         constexpr int most_sweeps = 8;
         std::size_t all = 0;
@@ -85,7 +84,7 @@ class Trade {
         return rows;
     }
 
-    /// Kernel values of a column's point with all columns. An exchange swaps places, not columns.
+    /// Kernel values of a column's point with all points. Exchanges permute places, not columns.
     void fill(std::size_t column, std::vector<double>& values) {
         points_.row(column, row_.data());
         for (std::size_t first = 0; first < 2 * n_; first += tile)

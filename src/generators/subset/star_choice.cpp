@@ -66,7 +66,7 @@ PointSet set_of(const PointSet& points, const Rows& rows) {
     return set;
 }
 
-/// Coordinate comparisons allowed for one measurement; a value after that many counts as exact.
+/// Coordinate comparisons allowed for one measurement; then its value may be only a lower bound.
 constexpr std::uint64_t work_of_measure = std::uint64_t{1} << 30;
 
 /// Finds the worst box, or stops at a box whose value is at least `enough`.
@@ -193,7 +193,6 @@ struct Exchange {
     double excess;      ///< largest excess in the selected boxes after the exchange
 };
 
-/// A set and its star discrepancy.
 struct Present {
     Rows members;
     double value = 1;
@@ -306,7 +305,7 @@ class StarExchanges {
         return drawn;
     }
 
-    /// Makes some random exchanges, if possible without a box that is much worse than the worst.
+    /// Makes some random exchanges, if possible without making a box much worse than the worst one.
     void perturb() {
         const std::size_t some = 1 + draw(3);
         const double bound = now_.value * static_cast<double>(n_) + 0.5;
@@ -385,8 +384,7 @@ class StarTrades {
         return measure(set_of(points_, set), enough, quiet_);
     }
 
-    /// Random row of the set with its point inside the box, or outside if `inside` is false; any
-    /// row if such points are rare.
+    /// Random row of the set with its point inside the box (or outside); any row if these are rare.
     std::size_t& drawn_from(Rows& set, const Measured& box, bool inside) {
         constexpr int most_draws = 64;
         std::size_t at = draw(set.size());

@@ -40,7 +40,7 @@
 namespace stipple {
 namespace {
 
-constexpr double reach = 5;        // of a kernel, in standard deviations; exp(-12.5) = 3.7e-6
+constexpr double reach = 5;        // kernel radius in standard deviations; exp(-12.5) = 3.7e-6
 constexpr double leaf_mass = 0.5;  // largest mass of a quadtree's leaf, in points
 constexpr double window_mass = 2;  // mass of the square that sets sigma, in points
 constexpr int deepest = 24;        // largest level of the quadtree

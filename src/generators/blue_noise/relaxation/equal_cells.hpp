@@ -42,17 +42,15 @@ class EqualCells {
         double conductance;
     };
 
-    /// Cells of sites at `rows`. The density must outlive the cells; without one it is 1.
+    /// Cells of sites at `rows`. The density must outlive the cells; without a density, rho = 1.
     EqualCells(const Planar& planar, const std::optional<DensityMoments>& density,
                const std::vector<double>& rows, const RunContext& run);
 
     /// Finds the weights, starting from the current ones, or from 0 if a site has lost its cell.
-    /// Sites that have no mass even then move to their rows of `rescue`. Returns the
-    /// largest |m_i n / total - 1|, which is above `tolerance` only after `steps` steps or because
-    /// of rounding.
+    /// Sites that have no mass even then move to their rows of `rescue`. Returns the largest error
+    /// |m_i n / total - 1|, which exceeds `tolerance` only after `steps` steps or by rounding.
     double equalize(double tolerance, std::span<const double> rescue, std::size_t steps = 1000);
 
-    /// Moves every site to the centroid of its cell.
     void move_to_centroids();
     void move(std::size_t i, Vec2 to) { sites_.move(i, sites_.inside(to)); }
 

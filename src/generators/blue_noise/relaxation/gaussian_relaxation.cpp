@@ -34,8 +34,8 @@
 namespace stipple {
 namespace {
 
-constexpr double kernel_reach = 6;  // the kernel is exp(-6^2 / 2) = 1.5e-8 there
-constexpr double cell_side = 1.75;  // approximate; fastest of those measured
+constexpr double kernel_reach = 6;  // distance at which kernels are cut off; exp(-6^2 / 2) = 1.5e-8
+constexpr double cell_side = 1.75;  // approximate side of a cell; the fastest of those measured
 constexpr double nowhere = 1e6;
 
 /// count^(1/dimension) by Newton's method, from above.
@@ -136,7 +136,7 @@ double wrapped(double x, double side) {
     return x >= 0 && x < side ? x : 0;
 }
 
-/// For the pairs of one point with others: sums over images along each axis; padded with zeros.
+/// Sums over images for the pairs of one point with all others, by axis; padded with zeros.
 struct AxisSums {
     std::array<std::vector<double>, relaxation_dimensions> kernels = {};
     std::array<std::vector<double>, relaxation_dimensions> pulls = {};
@@ -209,7 +209,6 @@ class Kernels {
         }
     }
 
-    /// Computes the forces on the points of a cell.
     void forces_in(std::size_t cell, Workspace& work, std::span<double> forces) const {
         if (starts_[cell] == starts_[cell + 1]) return;
         if (by_axes_) return forces_by_axes(cell, work.sums, forces);
@@ -329,7 +328,6 @@ class Kernels {
     std::vector<std::uint32_t> starts_;
 };
 
-/// Computes the forces on all points.
 void all_forces(Kernels& kernels, std::span<double> forces, const RunContext& run) {
     kernels.sort(run);
     constexpr std::uint64_t size = 64;  // cells in a block

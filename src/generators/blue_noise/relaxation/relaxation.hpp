@@ -25,13 +25,12 @@ inline double sum_of_lanes(const double* parts) {
            ((parts[2] + parts[6]) + (parts[3] + parts[7]));
 }
 
-/// Accelerated gradient steps s F + b (last step), of length s along the forces F; b is Nesterov's.
+/// Accelerated gradient steps s F + b (last step), with length s, forces F and Nesterov's factor b.
 class Descent {
   public:
     explicit Descent(std::size_t coordinates) : ways_(coordinates) {}
 
-    /// Next step of every coordinate. The caller may change it; the following step continues the
-    /// changed one.
+    /// Next step of every coordinate. If the caller changes it, later steps build on the change.
     std::span<double> step(std::span<const double> forces, double length);
 
   private:

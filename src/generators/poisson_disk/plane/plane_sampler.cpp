@@ -281,7 +281,7 @@ class PlaneSampler {
         }
     }
 
-    /// Draws darts on the open sub-cells of a gap; adds gaps around these to the workspace.
+    /// Draws darts on a gap's open sub-cells; adds gaps around these sub-cells to the workspace.
     void draw_on_gap(const PlaneTile& tile, const Gap<2>& gap, const PoissonCounts& counts,
                      std::uint64_t key, PlaneWorkspace& work) const {
         const Cell cell = PlaneTile::cell_at(gap.place);

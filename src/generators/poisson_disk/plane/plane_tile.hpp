@@ -101,7 +101,7 @@ class FixedPositions {
     /// Index of a cell in the array of positions, counted from the first one of the halo.
     static constexpr std::size_t number(std::size_t x, std::size_t y) { return y * stride + x; }
 
-    /// Whether a point of the 25 cells from `first` on covers `place`, which is in the middle one.
+    /// Whether a point of the 25 cells from `first` on covers `place`, which is in the middle cell.
     /// @param sure squared distance below which a point is a hit
     /// @param possible squared distance from which on a point is not a hit
     [[nodiscard, gnu::always_inline]] Hit hit(std::size_t first, FixedPosition place,
@@ -186,7 +186,7 @@ class CoverageTable {
     static constexpr std::size_t worth = 128;
     static constexpr std::size_t most_places = 32;
 
-    /// Coverage of a row of five cells, for a centre anywhere in a place.
+    /// Coverage of a row of five cells, for a centre anywhere in this place of the table.
     [[nodiscard]] Row row_of(std::size_t place, std::size_t row) const {
         const std::array<std::size_t, 2> at{place % places_, place / places_};
         const std::array<double, 2> there{-2, static_cast<double>(row) - 2};
@@ -206,8 +206,7 @@ class CoverageTable {
         return out;
     }
 
-    /// Sub-cells of a cell that a disk covers for every centre within `play` of `center` along each
-    /// direction.
+    /// Sub-cells that a disk covers for every centre within `play` of `center` in each direction.
     [[nodiscard]] SubcellBits covered(const Place& center, const Place& play) const {
         constexpr std::size_t p = subcells<2>;
         SubcellBits bits = 0;
@@ -284,16 +283,14 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
                                       static_cast<std::size_t>(cell[1] + int{halo}));
     }
 
-    /// Pointer to the coverage of a cell by single disks, followed by that of the next cells of its
-    /// row.
+    /// Pointer to a cell's coverage by single disks; that of the next cells of the row follows.
     [[nodiscard]] const SubcellBits* covered(std::size_t number) const { return covered_ + number; }
 
     [[nodiscard]] bool taken(std::size_t number) const { return index_[number] != none; }
 
     [[nodiscard]] const FixedPositions& positions() const { return positions_; }
 
-    /// Calls visit(point, cell) for the points of the 5 x 5 cells around `cell` until a call
-    /// returns false.
+    /// Calls visit(point, cell) for points of 5 x 5 cells around `cell` until a call returns false.
     template <class Visit>
     void for_about(const Cell& cell, const Visit& visit) const {
         for (int y = cell[1] - halo; y <= cell[1] + halo; ++y)
@@ -303,8 +300,7 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
             }
     }
 
-    /// Adds a point of the tile.
-    /// @param mask sub-cells that its disk covers
+    /// @param mask sub-cells that the point's disk covers
     void add(const Cell& cell, FixedPosition position, const Point& at,
              const CoverageTable::Row* mask) {
         const std::size_t number = number_of(cell);
@@ -318,7 +314,6 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
         for (const Addition<2>& a : additions) take(a);
     }
 
-    /// Releases the tile's memory, except for the points.
     void drop() {
         release(halo_);
         pending = {};

@@ -73,7 +73,7 @@ struct Pattern {
     return open;
 }
 
-/// Sub-cells that a ball covers in a layer: on 16 adjacent lines, as it reaches no more of them.
+/// Sub-cells that a ball covers in a layer: on 16 adjacent lines, because it reaches no more.
 struct LineCover {
     /// Maximum radius of a ball in sub-cells, whose sides are at least an eighth of a radius.
     static constexpr int reach = 8;

@@ -40,7 +40,7 @@ struct BallLines {
 
 /// A ball, by its centre.
 struct PlacedBall {
-    TileCell<3> cell;          ///< in the tile, or up to two beyond its faces
+    TileCell<3> cell;          ///< cell with the centre: in the tile, or up to two cells beyond it
     std::array<float, 3> off;  ///< centre, from that cell's corner, in radii
 };
 

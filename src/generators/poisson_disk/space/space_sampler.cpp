@@ -46,7 +46,7 @@ struct SpaceWorkspace : GapWorkspace<3> {
 /// sets of similar radii stay nearly the same.
 constexpr std::size_t together = 4 * 64;
 
-/// Draws darts on the open ones of `together` sub-cells.
+/// Draws darts on those of `together` sub-cells that are open.
 /// @param first indices of the first sub-cell in the tile, along each direction
 [[gnu::always_inline]] inline void draw_on_lines(const SpaceTile& tile,
                                                  const std::array<std::size_t, 3>& first,
@@ -104,8 +104,7 @@ STIPPLE_WIDE void throw_at_subcells(const SpaceRules& rules, const SpaceTile& ti
     const Quad to_radii = Quad{rules.scales[0], rules.scales[1], rules.scales[2], 0} *
                           static_cast<float>(SpaceRules::digit);
     for (std::size_t column = 0; column < space_side * BallLines::words; ++column) {
-        // All darts of a layer are drawn first: hits are hard to predict, and mispredicted branches
-        // would delay the drawing.
+        // Draws all darts of a layer first: mispredicted hits would delay the drawing.
         work.drawn.clear();
         for (std::size_t y = 0; y < BallLines::along; y += 2)
             draw_on_lines(tile, {column % BallLines::words * 32, y, column / BallLines::words * 4},
@@ -195,8 +194,7 @@ class SpaceSampler {
         }
     }
 
-    /// Throws darts at the open sub-cells of a cell's gaps; adds gaps around these to the
-    /// workspace.
+    /// Throws darts at open sub-cells of a cell's gaps; adds gaps around these sub-cells to `work`.
     void throw_at_cell(const SpaceTile& tile, const Cell& cell, SubcellBits some,
                        const Counts& counts, std::uint64_t key, SpaceWorkspace& work) const {
         tile.gather(cell, some, work.near);

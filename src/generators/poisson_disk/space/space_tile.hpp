@@ -25,9 +25,9 @@ namespace stipple::poisson_disk {
 /// Number of cells along a tile with its halo.
 inline constexpr int space_across = space_side + 4;
 
-/// One bit for each cell of a tile and its halo. The bits of any 5 x 5 x 5 cells are in five words:
-/// every fourth cell along the first direction begins a strip along the other directions, in which
-/// each byte has the eight cells from there on.
+/// One bit for each cell of a tile and its halo. A byte has eight cells in a row along the first
+/// direction and begins at a multiple of four; bytes with the same beginning are ordered by the
+/// other coordinates. So the bits of any 5 x 5 x 5 cells are in five words.
 class SpaceBits {
   public:
     static constexpr std::size_t layers = 5;
@@ -85,7 +85,7 @@ struct SpaceRules {
         }
     }
 
-    /// Whether a ball with its centre in neighbour b can reach into a sub-cell.
+    /// Whether a ball with its centre in neighbour cell b can reach into a sub-cell.
     [[nodiscard]] bool reaches(std::size_t b, std::size_t subcell) const {
         double squared = 0;
         for (std::size_t k = 0; k < 3; ++k, subcell /= 4) {
@@ -124,7 +124,7 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
         points_.reserve(3 * own);
     }
 
-    /// Coverage of sub-cells by single points.
+    /// Coverage of sub-cells by single balls.
     [[nodiscard]] const std::uint32_t* lines() const { return lines_.data(); }
     [[nodiscard]] bool taken(const Cell& cell) const { return taken_.has(cell); }
 
@@ -135,8 +135,7 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
         cover_lines(rules_->scales, balls, lines_.data());
     }
 
-    /// Collects the points that reach into the sub-cells `some` of a cell, and possibly other
-    /// points.
+    /// Collects the points that reach into the sub-cells `some` of a cell, and maybe others.
     void gather(const TileCell<3>& cell, SubcellBits some, NearDisks<3, float>& near) const {
         const std::uint16_t* numbers = &numbers_[number_of(cell)];
         const SpaceBits::Layers masks = reaching(some);

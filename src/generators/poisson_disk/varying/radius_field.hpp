@@ -45,15 +45,13 @@ class RadiusField {
     /// has no effect, because no box is that wide.
     static constexpr double widest = 1e75;
 
-    /// A cell, or several joined ones: column i and row j of its level. Level 0 has the cells of
-    /// the field.
+    /// A cell or joined cells: column i, row j of a level; level 0 has the field's own cells.
     struct Node {
         std::uint32_t level;
         std::uint32_t i;
         std::uint32_t j;
     };
 
-    /// One or two nodes.
     using Nodes = boost::container::static_vector<Node, 2>;
 
     /// @throws Error(input) if points are allowed nowhere; Error(limit)

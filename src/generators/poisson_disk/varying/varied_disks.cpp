@@ -61,7 +61,7 @@ class VariedSampler {
     Rows sample() {
         const auto corners = field_.corners(field_.root());
         gaps_.push_back({corners[0], corners[1], keys_.bits(0), field_.root()});
-        double thrown = 0;  // darts per r^2
+        double thrown = 0;  // darts per area r^2 so far
         for (std::uint64_t round = 1; !gaps_.empty(); ++round) {
             // More darts in each round, and enough for the gap with the largest rate to get some.
             density_ =
@@ -114,15 +114,14 @@ class VariedSampler {
         });
     }
 
-    /// Appends to near_ copies of those of its disks first, ..., last - 1 that overlap a gap.
+    /// Appends copies of disks near_[first], ..., near_[last - 1] that overlap a gap to near_.
     void narrow(std::size_t first, std::size_t last, const VariedGap& gap) {
         const double most = scale_ * field_.most(gap.node);
         for (std::size_t i = first; i < last; ++i)
             if (reaches(near_[i], gap, most)) near_.push_back(near_[i]);
     }
 
-    /// Throws darts at a gap or its halves. Only disks of near_ from `first` on may overlap the
-    /// gap.
+    /// Throws darts at a gap or its halves; only disks near_[first], ... may overlap the gap.
     void throw_at(const VariedGap& gap, std::size_t first) {
         const double least = field_.least(gap.node);
         if (least == RadiusField::closed) return;
@@ -201,8 +200,7 @@ class VariedSampler {
         return sum < r * r;
     }
 
-    /// Whether a disk is too near to every dart on the gap; the radius of darts is at least
-    /// `least`.
+    /// Whether a disk is too near to every dart on the gap; darts have radii of at least `least`.
     [[nodiscard]] bool covers(const Disk& disk, const VariedGap& gap, double least) const {
         const double r = std::min(disk.radius, least);
         double sum = 0;
@@ -239,7 +237,7 @@ class VariedSampler {
     double expected_;
     VariedIndex index_;
     double finest_ = 0;   ///< length below which gaps do not matter
-    double density_ = 0;  ///< darts per r^2, with r from dart_scale_
+    double density_ = 0;  ///< darts per area r^2, with r from dart_scale_
     double fastest_ = 0;  ///< largest rate of a gap
     std::uint64_t round_key_ = 0;
     PoissonCounts counts_{most_darts, 1};

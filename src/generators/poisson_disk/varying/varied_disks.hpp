@@ -7,12 +7,12 @@
 //     (varying/radius_field.hpp);    darts are thrown in proportion to 1 / r(x)^2.
 //
 // The process is that of generators/poisson_disk/maximal_disks.hpp: darts are thrown in rounds at
-// gaps, rectangles that may be uncovered. Gaps are halves of halves of the rectangle,
-// down to the cells of the field and beyond, where r is constant. A gap is certainly covered if
-// some point y is nearer to its farthest corner than min(least r of the gap, r(y)). In each round
-// gaps are halved until hardly more than one dart falls on each. Of the darts of a round, those too
-// near to older points are rejected first; the others are tried in the order of their times, and
-// kept if they satisfy the condition.
+// gaps, rectangles that may be uncovered. Gaps are halves of halves of the rectangle, down to the
+// cells of the field and beyond, where r is constant. A gap is certainly covered if some point y is
+// nearer to its farthest corner than min(least r of the gap, r(y)). In each round gaps are halved
+// until hardly more than one dart falls on each. Of the darts of a round, those too near to older
+// points are rejected first; the others are tried in the order of their times, and kept if they
+// satisfy the condition.
 //
 // Shape   d = 2; any rectangle, torus or bounded; any field.
 // Cost    5 us (one radius) to 9 us (a picture) a point on one core; 250 bytes a point.

@@ -41,16 +41,16 @@ class Exchanges {
     /// Draws a random exchange; false if the rules, apart from feasibility, forbid it.
     bool draw(SplitMix64& draws, Exchange& exchange) const;
 
-    /// Number of points, of the two in an exchange, that would be infeasible after it.
+    /// Number of the exchange's two points that would be infeasible after it.
     int infeasible(const Exchange& exchange);
 
     void make(const Exchange& exchange);
     [[nodiscard]] const Design& design() const { return design_; }
 
-    /// Exchanges levels until all points are feasible; returns the number of points that are not.
+    /// Exchanges levels until all points are feasible; returns 0 if they are.
     std::size_t make_feasible(SplitMix64& draws, const RunContext& run);
 
-    /// Makes all points feasible, then makes random exchanges, `times` as many as there are levels.
+    /// Makes all points feasible, then makes `times` random exchanges per level.
     /// @throws Error(limit) if some points stay infeasible
     void shuffle(SplitMix64& draws, std::size_t times, const RunContext& run = {});
 
@@ -68,8 +68,7 @@ class Exchanges {
     std::vector<Level> row_;             ///< buffer for the levels that are checked
 };
 
-/// Best design so far, stored as an earlier design and the exchanges since then, so that
-/// improvements need no copy.
+/// Best design so far: an earlier design and the exchanges since, so improvements need no copy.
 class Trail {
   public:
     explicit Trail(Design start) : best_(std::move(start)) {}

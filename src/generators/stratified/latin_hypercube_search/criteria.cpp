@@ -221,7 +221,7 @@ class CorrelationCriterion final : public Criterion {
     std::size_t points_;
     std::size_t dimension_;
     std::vector<std::int64_t> x_;  ///< twice a level's distance from the middle, row after row
-    std::vector<std::int64_t> products_;  ///< sums over all points, for every two coordinates
+    std::vector<std::int64_t> products_;  ///< sums of x_k x_l over all points, for all k and l
     std::vector<double> lengths_;         ///< Euclidean norm of each coordinate
 };
 

@@ -58,7 +58,7 @@ class Criterion {
     Criterion& operator=(const Criterion&) = delete;
     virtual ~Criterion() = default;
 
-    /// Change of the energy if rows a and b exchange levels on a coordinate; only b may be spare.
+    /// Change of the energy if rows a and b exchange levels on an axis; only b may be a spare row.
     virtual double change(std::size_t coordinate, std::size_t a, std::size_t b) = 0;
 
     /// Makes the exchange; `change` is the result of change().
@@ -70,14 +70,12 @@ class Criterion {
     [[nodiscard]] virtual bool reached() const { return false; }
 
     /// Sets the target of maximin, a squared distance; 0: the mean squared distance of nearest
-    /// neighbours.
-    /// Returns false for criteria without targets.
+    /// neighbours. Returns false for criteria without targets.
     virtual bool aim(double /*target*/) { return false; }
 
     [[nodiscard]] virtual Score score() const = 0;
 
-    /// Returns the score, or `other` if the score cannot be below `other`; this test avoids
-    /// visiting all pairs.
+    /// Returns the score, or `other` if a quick test shows that the score is not below `other`.
     virtual Score score_below(const Score& other) = 0;
 };
 
@@ -91,17 +89,16 @@ std::unique_ptr<Criterion> pair_criterion(const Objective& objective, const Desi
 /// Bytes that a criterion needs.
 double criterion_memory(const Objective& objective, const Design& design);
 
-/// Typical difference of two levels; and, by usual_square(), mean squared distance of two points.
-/// Both are used as divisors.
+/// Typical difference of two levels, and mean squared distance of two points; used as divisors.
 double usual_difference(std::size_t points);
 double usual_square(std::size_t points, std::size_t dimension);
 
-/// Criterion's value for a score, in the form of provenance and progress.
+/// Value of a score as reported in provenance and progress.
 double reported(const Objective& objective, const Score& score, std::size_t points,
                 std::size_t dimension);
 
-/// Results by name: the value of all points by the criterion's definition, and related ones;
-/// without infinite values, which occur if points share a level. O(n^2 d).
+/// Results by name: the criterion's value over all points, and related quantities; without infinite
+/// ones, which occur if points share a level. O(n^2 d).
 std::vector<std::pair<std::string, std::string>> described(const Objective& objective,
                                                            const Design& design, const Rules& rules,
                                                            const RunContext& run);

@@ -15,9 +15,8 @@ namespace stipple::latin_hypercube_search {
 
 using Level = std::int32_t;
 
-/// Levels 0, ..., points - 1, one coordinate after the other. Spare rows, those after the points,
-/// hold levels that no point has, or -1; a point that exchanges its level with a spare row moves to
-/// that stratum.
+/// Levels 0, ..., points - 1, one coordinate after the other. Spare rows, after the points, hold
+/// levels of no point, or -1. A point that exchanges levels with a spare row moves to that stratum.
 struct Design {
     Design(std::size_t points_, std::size_t rows_, std::size_t dimension_)
         : points(points_), rows(rows_), dimension(dimension_), levels(rows_ * dimension_, -1) {}
@@ -43,7 +42,7 @@ struct Design {
 /// no shift: the removed point is a corner, and distances stay the same.
 Design lattice_start(std::size_t points, std::size_t dimension, SplitMix64& draws);
 
-/// Coordinate whose levels stand for outcomes, values of a parameter, with equal ones in a row.
+/// Coordinate whose levels represent outcomes of a parameter; equal outcomes are consecutive.
 struct Axis {
     std::vector<Level> places = {};  ///< position of each level, for distances; empty: the level
     Level parts = 0;                 ///< number of outcomes; 0: the coordinate is continuous
@@ -58,18 +57,18 @@ struct Axis {
     }
 };
 
-/// Axis with the outcomes floor(level m / n), m = parts: each level counts as the middle of its
-/// part, rounded down.
+/// Axis with m = parts outcomes floor(level m / n); the position of each level is the middle of the
+/// levels with its outcome, rounded down.
 Axis even_parts(std::size_t points, Level parts);
 
-/// Axis whose levels 0, 1, ... have the given outcomes: consecutive levels of one outcome count as
-/// their middle. Categories are equally far apart, at a distance that gives two points the mean
-/// squared distance along other axes, but not farther than n.
+/// Axis whose levels 0, 1, ... have the given outcomes: consecutive levels of one outcome have
+/// their middle as position. Categories are equally far apart, at a distance that gives two points
+/// the mean squared distance along other axes, but not farther than n.
 Axis parts_by(std::span<const double> outcomes, bool categories);
 
 /// Constraints on exchanges of levels, and the meaning of levels.
 struct Rules {
-    std::size_t fixed = 0;  ///< number of first rows that never change
+    std::size_t fixed = 0;  ///< number of leading rows that never change
 
     /// Ends of groups of consecutive rows; empty: one group. Levels are exchanged only within a
     /// group, or between rows whose levels are in the same coarse stratum of `coarse` levels.
@@ -79,8 +78,7 @@ struct Rules {
     /// One axis for each coordinate; empty: all are continuous.
     std::vector<Axis> axes = {};
 
-    /// Whether the point of this row may have these levels; empty: always. A pure function, called
-    /// by several threads.
+    /// Whether the point of this row may have these levels; empty: always. Pure and thread-safe.
     std::function<bool(std::size_t row, std::span<const Level> levels)> feasible = {};
 
     /// True if there are no rules: any exchange is allowed, and levels are their own positions.
@@ -93,7 +91,6 @@ struct Rules {
     }
 };
 
-/// Result of a search.
 struct Result {
     Design design;
     bool stopped = false;  ///< a stop request ended the search early, in a run that keeps the best

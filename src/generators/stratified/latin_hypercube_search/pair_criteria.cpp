@@ -19,7 +19,7 @@ constexpr std::size_t lanes = 8;
 
 constexpr std::size_t padded(std::size_t n) { return (n + lanes - 1) / lanes * lanes; }
 
-/// Sum in an order of additions that vectors of any width can follow.
+/// Sum of term(0), ..., term(n - 1) in an order that SIMD vectors of any width can follow.
 template <class Term>
 STIPPLE_INLINE double lane_sum(std::size_t n, Term term) {
     double sums[lanes]{};
@@ -87,8 +87,7 @@ STIPPLE_INLINE void raise(double* r, std::size_t n, int power) {
     for (std::size_t l = 0; l < n; ++l) r[l] = result[l];
 }
 
-/// Returns scale / squared distance. Coinciding points, which discrete axes may cause, count as
-/// half a level apart.
+/// Returns scale / squared distance; coinciding points (discrete axes) are half a level apart.
 STIPPLE_INLINE double over(double scale, Level square) {
     return scale / std::max(0.25, static_cast<double>(square));
 }
@@ -119,8 +118,7 @@ STIPPLE_WIDE double power_change(const Row<Level>& row, int power, double scale)
                           : powers_by(row, power, scale, Change(row));
 }
 
-/// Factor of the centered discrepancy, 1 + |z|/2 + |z'|/2 - |z - z'|/2, for z = 2 a unit and
-/// z' = 2 b unit.
+/// Factor 1 + |z|/2 + |z'|/2 - |z - z'|/2 of the centered discrepancy, z = 2 a unit, z' = 2 b unit.
 STIPPLE_INLINE double centered_factor(double a, double b, double unit) {
     return 1 + (std::abs(a) + std::abs(b) - std::abs(a - b)) * unit;
 }
@@ -157,7 +155,7 @@ STIPPLE_WIDE double projection_change(const Row<double>& row, double more) {
                           : projections_by(row, std::sqrt(row.apart), more);
 }
 
-/// Squared distances, to which each coordinate adds.
+/// Squared distances: each coordinate adds a term.
 struct Distances {
     using Value = Level;
     static constexpr Level start = 0;

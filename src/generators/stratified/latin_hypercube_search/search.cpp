@@ -190,8 +190,8 @@ class Rounds {
 // (n! / 2)^(d - 1) designs, O(n^2) each, and n! / 2 bytes are needed (D. E. Knuth, The Art of
 // Computer Programming 4A (2011), 7.2.1.1 algorithm H, 7.2.1.2 algorithm P).
 
-/// First half of the plain changes of n items: p is an exchange of the items at positions p and p +
-/// 1. Ends before the items at positions 0 and 1 of the start would change their order.
+/// First half of the plain changes of n items: p exchanges the items at positions p and p + 1. Ends
+/// before the items at the initial positions 0 and 1 would change their order.
 std::vector<std::uint8_t> half_of_plain_changes(std::size_t n) {
     if (n < 3) return {};
     const std::vector<std::uint8_t> fewer = half_of_plain_changes(n - 1);
