@@ -29,7 +29,7 @@ std::vector<std::string> names_of_units(const std::vector<Unit>& units) {
     return names;
 }
 
-/// Options of a spec, then those given separately.
+/// Options of a spec, overridden by `settings`.
 Values merged(const Spec& spec, const Schema& schema, const Settings& settings) {
     Values values = spec.values(schema);
     for (const auto& [name, text] : settings) schema.set(values, name, text);
@@ -47,7 +47,7 @@ DomainPtr domain_or_cube(const PointSet& points) {
     return points.domain ? points.domain : unit_cube(points.dimension());
 }
 
-/// A checked copy with a domain.
+/// Returns a checked copy of a set; its domain is the unit cube if it has none.
 PointSet checked(PointSet set) {
     check_set(set);
     set.domain = domain_or_cube(set);
@@ -97,7 +97,7 @@ struct Sampler::State {
     Plan plan;
     std::uint64_t end = 0;  ///< index after the last point
     std::unique_ptr<Sequence> sequence;
-    std::mutex in_turn;  ///< held to fill rows without random access
+    std::mutex in_turn;  ///< held during fill() of a sequence without random access
 };
 
 namespace {
@@ -256,7 +256,7 @@ void write(const std::string& path, std::span<const PointSet> sets, const WriteO
         fail(ErrorKind::usage, "a precision of {} is outside [0, 1000]", *options.precision);
     std::vector<PointSet> copies;
     for (const PointSet& set : sets) copies.push_back(checked(set));
-    // The record of the first set is that of all, which sets of different commands do not have.
+    // The file gets the provenance of the first set; sets of different commands lose their recipe.
     if (std::ranges::any_of(sets, [&](const PointSet& set) {
             return set.provenance.command != sets.front().provenance.command;
         }))

@@ -27,9 +27,8 @@ std::size_t moved(std::size_t k, std::span<const std::size_t> from,
     return to[static_cast<std::size_t>(std::ranges::find(from, k) - from.begin())];
 }
 
-/// Positions of an image's `size` numbers in the output row, in which they replace the coordinates
-/// `taken`. If the sizes agree, these are the same positions; otherwise they are consecutive and
-/// begin where the first of the coordinates was.
+/// Returns the positions, in the output row, of the `size` numbers of an image that replaces the
+/// coordinates `taken`: `taken` if the sizes agree; else consecutive, from where taken[0] was.
 std::vector<std::size_t> places(std::span<const std::size_t> taken, std::size_t size) {
     if (taken.size() == size) return {taken.begin(), taken.end()};
     const auto before =
@@ -39,8 +38,8 @@ std::vector<std::size_t> places(std::span<const std::size_t> taken, std::size_t 
     return at;
 }
 
-/// Builds rows from `part`, at the positions `at`, and from the columns `rest` of `rows`, at the
-/// positions `free`.
+/// Builds rows with the columns of `part` at the positions `at`, and the columns `rest` of `rows`
+/// at the positions `free`.
 std::vector<double> interleave(std::span<const double> rows, std::size_t width,
                                std::span<const std::size_t> rest, std::span<const double> part,
                                std::span<const std::size_t> at, std::span<const std::size_t> free) {
@@ -66,7 +65,7 @@ void keep_rows(std::vector<double>& rows, std::size_t width, std::span<const std
     rows.resize(kept * width);
 }
 
-/// Reports that a warp takes another number of coordinates than it was given.
+/// Reports that a warp takes `takes` coordinates, which is not the number that it was given.
 /// @param width numbers per row
 /// @throws Error(usage)
 [[noreturn]] void refuse_coordinates(const Spec& spec, std::size_t takes, std::size_t width) {
@@ -335,7 +334,7 @@ std::vector<double> WarpChain::inverse(std::vector<double> rows) const {
 
 namespace {
 
-/// Returns images(block) of consecutive blocks of rows, joined; `rows` has d numbers per row.
+/// Splits rows of d numbers into blocks, and joins the images(block, first) of all, in order.
 std::vector<double> in_blocks(
     std::span<const double> rows, std::size_t d, const RunContext& run,
     const std::function<std::vector<double>(std::vector<double>, std::size_t first)>& images) {
@@ -391,7 +390,7 @@ std::vector<std::string> WarpChain::names(std::vector<std::string> before, bool 
             after[back ? from : at] = std::move(before[back ? at : from]);
     for (const Step& step : steps_) {
         if (!step.mapping) continue;
-        const auto own = step.domain->names();  // as many as cube coordinates
+        const auto own = step.domain->names();  // a domain with names has the cube's dimension
         for (std::size_t i = 0; i < own.size(); ++i)
             after[(back ? step.from : step.image)[i]] = own[i];
     }
@@ -505,7 +504,7 @@ std::vector<std::string> files_in(std::string_view specs, std::string_view separ
             const Schema& schema =
                 generators ? find_generator(spec.name).options : find_warp(spec.name).options;
             std::ranges::move(files_of(schema, spec.values(schema)), std::back_inserter(files));
-        } catch (const Error&) {  // reported by the specs' user; unit-cube is no warp
+        } catch (const Error&) {  // reported where the spec is used; "unit-cube" is not a warp
         }
     }
     return files;

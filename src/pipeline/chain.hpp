@@ -3,9 +3,9 @@
 // Warps and scrambles applied one after the other, each to the coordinates that its spec names:
 // disk@4,5.
 //
-// Shape  rows of the unit cube in, rows of chain.domain() out. If a warp's image has more or fewer
-//        numbers than the warp takes, they are placed where its first coordinate was; later specs
-//        count the coordinates of the changed row.
+// Shape  rows of the unit cube in, rows of chain.domain() out. If a warp changes the number of
+//        coordinates, those of its image are consecutive, from the position of the first one taken;
+//        later specs refer to the changed row.
 #pragma once
 
 #include <atomic>
@@ -31,36 +31,33 @@ namespace stipple {
 struct ChainSet {
     std::uint64_t seed = 1;
     std::uint64_t count = 1;  ///< points of the whole set; 0: not known
-    /// Base of the digits of each coordinate, or one base for all; empty: 2.
+    /// Base of the digits of each coordinate, or one base for all; empty if all bases are 2.
     std::vector<std::uint32_t> bases = {};
-    /// Ranges of the coordinates, of which those that no warp takes are scaled after the chain.
+    /// Range of each coordinate. Coordinates that no warp takes are scaled to it after the chain.
     std::optional<Box> bounds = {};
 };
 
-/// Properties of the set that a plan describes.
 ChainSet chain_set(const Generator& generator, const Plan& plan, const Values& options);
 
 struct ChainTraits {
     bool drops = false;            ///< some points may have no image
-    bool refills = false;          ///< sets have the requested number of images nevertheless
+    bool refills = false;          ///< other points replace those without an image
     bool needs_whole_set = false;  ///< the image of a point depends on all points of its set
     bool seeded = false;           ///< the images depend on the set's seed
 };
 
 /// Warps and scrambles as stored in the provenance.
 struct ChainRecord {
-    std::vector<std::string> specs = {};  ///< with those options that differ from the defaults
-    std::vector<std::string> files = {};  ///< files that they read
-    /// Names and stream versions, if above 1.
+    std::vector<std::string> specs = {};  ///< without options that have their default value
+    std::vector<std::string> files = {};  ///< files that the warps and scrambles read
+    /// Names of units whose stream version is above 1, with that version.
     std::vector<std::pair<std::string, std::uint64_t>> stream_versions = {};
 };
 
 class WarpChain {
   public:
-    /// @param warped domains of coordinates that are already warped, and that the chain must not
-    /// change
-    /// @throws Error(usage) for unknown warps, and for coordinates that do not exist or are already
-    /// warped
+    /// @param warped domains of already warped coordinates, which the chain must not change
+    /// @throws Error(usage) for unknown warps, and for missing or already warped coordinates
     WarpChain(std::span<const Spec> specs, std::size_t dimension, const ChainSet& set = {},
               const RunContext& run = {}, std::vector<Factor> warped = {});
 
@@ -75,8 +72,8 @@ class WarpChain {
     /// images.
     [[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> kept() const;
 
-    /// Discrete outcomes (such as levels) to which each coordinate of the points is mapped. An axis
-    /// is continuous if it has no such outcomes, or if they depend on other coordinates.
+    /// Discrete outcomes (such as levels) of each input coordinate. An axis counts as continuous if
+    /// it has none, if they depend on other coordinates, or if a scramble precedes the warp.
     [[nodiscard]] std::vector<OutcomeAxis> outcome_axes() const;
 
     /// Returns the names of the coordinates of the images or, with `back`, of the preimages.
@@ -96,8 +93,7 @@ class WarpChain {
     [[nodiscard]] std::vector<double> inverse(std::vector<double> rows) const;
 
     /// Runs forward() or, with `back`, inverse() on all threads. The first row is row `first` of
-    /// the set.
-    /// @throws as these do; Error(cancelled), Error(limit)
+    /// the set. @throws the errors of forward() and inverse(); Error(cancelled), Error(limit)
     [[nodiscard]] std::vector<double> mapped(std::span<const double> rows, bool back,
                                              std::uint64_t first, const RunContext& run) const;
 
@@ -119,10 +115,10 @@ class WarpChain {
         Randomization randomization = {};
         std::vector<std::size_t> coordinates = {};  ///< coordinates taken from the input row
         std::vector<std::size_t> rest = {};         ///< other coordinates of the input row
-        std::vector<std::size_t> at = {};           ///< positions of its numbers in the output row
+        std::vector<std::size_t> at = {};           ///< positions of the image in the output row
         std::vector<std::size_t> others = {};       ///< positions of `rest` in the output row
-        std::vector<std::size_t> from = {};   ///< positions of its coordinates in the first row
-        std::vector<std::size_t> image = {};  ///< positions of its numbers in the last row
+        std::vector<std::size_t> from = {};   ///< positions of `coordinates` in the chain's input
+        std::vector<std::size_t> image = {};  ///< positions of the image in the chain's output
         std::size_t width_in = 0;             ///< numbers in the input row
         std::size_t width_out = 0;            ///< numbers in the output row
     };
@@ -143,7 +139,7 @@ class WarpChain {
     /// @param first index of the first of these rows
     void note_infinite(const Step& step, std::span<const double> cube, std::uint64_t first) const;
 
-    /// Adds a step that sets the domain of coordinates of the last row.
+    /// Adds a step that only sets the domain of some coordinates.
     void set_domain(Factor factor);
     void set_bases(Values& values, const Scramble& scramble,
                    std::span<const std::size_t> coordinates,
@@ -152,20 +148,18 @@ class WarpChain {
     void add_warp(const Warp& warp, const Spec& spec, const RunContext& run);
     template <class Unit>
     void remember(const Unit& unit, const Spec& spec, const Values& values);
-    /// A step that takes the coordinates that a spec names, or all.
-    /// @throws Error(usage) if one does not exist, or is already on another domain than the unit
-    /// cube
+    /// Returns a step for the coordinates that a spec names, or for all.
+    /// @throws Error(usage) if one is missing, or already has a domain other than the unit cube
     [[nodiscard]] Step step_of(const Spec& spec) const;
 
     std::vector<Step> steps_;
     ChainTraits traits_;
     ChainRecord record_;
     std::size_t dimension_in_;
-    /// For each coordinate of the last row, the one of the first row that it is; `none` if a warp
-    /// made it.
+    /// Input coordinate that each output coordinate was before scrambles; `none` if a warp made it.
     std::vector<std::size_t> from_;
     DomainPtr domain_;
-    mutable std::atomic<std::uint64_t> infinite_ = none;  ///< index of a row, `none` or `told`
+    mutable std::atomic<std::uint64_t> infinite_ = none;  ///< first infinite row, `none` or `told`
     static constexpr std::uint64_t none = ~std::uint64_t{0};
     static constexpr std::uint64_t told = none - 1;
 };
@@ -180,7 +174,7 @@ DomainPtr domain_before(const WarpChain& chain, const DomainPtr& after);
 /// points without an image, and multiplies the efficiency in the provenance by the fraction of
 /// points that have one.
 /// @param start index of the first point
-/// @throws Error(input) for points of another dimension, and if none has an image; as
+/// @throws Error(input) for points of another dimension, and if none has an image; the errors of
 /// WarpChain::mapped()
 PointSet image_of(const PointSet& points, const WarpChain& chain, const RunContext& run,
                   std::uint64_t start = 0);
@@ -199,7 +193,7 @@ void tell_kept(const WarpChain& chain, std::uint64_t count, std::uint64_t kept,
 std::vector<double> gather(std::span<const double> rows, std::size_t width,
                            std::span<const std::size_t> columns);
 
-/// Returns the input files that options name, also in specs of other units, in order.
+/// Returns the input files that options name, including those in nested specs, in order.
 /// @param written options that name output files
 std::vector<std::string> files_of(const Schema& schema, const Values& values,
                                   std::span<const std::string> written = {});
@@ -208,15 +202,14 @@ std::vector<std::string> files_of(const Schema& schema, const Values& values,
 std::vector<std::string> files_of(const Generator& generator, const Values& values,
                                   std::span<const Spec> warps);
 
-/// Returns the input files that specs of generators or warps name, without those of wrong specs.
+/// Returns the input files in specs of warps or, with `generators`, of generators; skips bad specs.
 std::vector<std::string> files_in(std::string_view specs, std::string_view separator,
                                   bool generators = false);
 
 /// Recorded instead of a fingerprint for input that cannot be read again, such as a pipe.
 inline constexpr std::string_view not_kept = "not kept";
 
-/// Returns the names of files with the fingerprints of their bytes.
-/// @throws Error(io)
+/// Returns the names of files with the fingerprints of their bytes. @throws Error(io)
 std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const std::string> files,
                                                               const RunContext& run);
 

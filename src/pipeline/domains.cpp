@@ -71,8 +71,7 @@ std::vector<Factor> warped_factors(const DomainPtr& domain, std::span<const std:
 
 namespace {
 
-/// Returns the warp whose domain has this name.
-/// @throws Error(usage)
+/// Returns the warp whose domain has this name. @throws Error(usage)
 const Warp& warp_of_domain(const std::string& name) {
     std::vector<std::string> names = {"unit-cube", "box"};
     for (const Warp& warp : warps::all()) {
@@ -142,7 +141,7 @@ bool may_be_biased(const std::string& step) {
 }
 
 /// Assigns each step that may be biased to the factor of the domain that it made. Warns of a biased
-/// step without such a factor: later steps changed its points, or it was an inverse.
+/// step without such a factor: later steps changed its points, or the step was an inverse.
 std::vector<FactorLaw> factor_laws(std::span<const std::string> steps, const DomainPtr& domain,
                                    const RunContext& run) {
     std::vector<FactorLaw> laws;

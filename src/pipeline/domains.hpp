@@ -35,7 +35,7 @@ DomainPtr filled_up(std::vector<Factor> factors, std::size_t dimension);
 std::vector<Factor> warped_factors(const DomainPtr& domain,
                                    std::span<const std::size_t> boxless = {});
 
-/// Parses the factors of a domain between " x ". A factor that names no coordinates has all
+/// Parses the factors of a domain, separated by " x ". A factor without named coordinates gets all
 /// `dimension` of them, whatever its own dimension. @throws Error(usage)
 std::vector<Factor> parse_factors(std::string_view text, std::size_t dimension,
                                   const RunContext& run = {});
@@ -45,14 +45,14 @@ std::vector<Factor> parse_factors(std::string_view text, std::size_t dimension,
 /// @throws Error(usage); Error(input) if it does not fit points of this dimension
 DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunContext& run = {});
 
-/// Multiplies the density of each row by that at its `coordinates`: the density of the mapping that
-/// made them or, if `mapping` is null, of their domain.
+/// Multiplies each row's density by the density at its `coordinates`: that of the mapping or, if
+/// `mapping` is null, the uniform density of `domain`.
 void multiply_densities(std::span<double> densities, std::span<const double> rows,
                         std::span<const std::size_t> coordinates, const Domain& domain,
                         const Mapping* mapping);
 
-/// Density at each point, if a warp in the set's provenance gives points another density than that
-/// of their domain; empty if there is no such warp. Warns if the density is not known.
+/// Density at each point, if a warp in the set's provenance makes points that are not uniform on
+/// their domain; empty if there is no such warp. Warns if the density is not known.
 std::vector<double> biased_densities(const PointSet& points, const RunContext& run);
 
 }  // namespace stipple

@@ -18,8 +18,8 @@
 namespace stipple {
 namespace {
 
-// Experimental designs take their levels from named parameters, and earlier runs from a file, which
-// holds them in the units of the parameters.
+// Options of experimental designs. Their levels come from named parameters; earlier runs come from
+// a file, in the units of the parameters.
 
 constexpr const char* extend_option = "extend";
 constexpr const char* add_option = "add";
@@ -97,7 +97,7 @@ void take_levels(const WarpChain& chain, Values& options) {
         options.put(levels_of_factors, std::move(levels));
 }
 
-/// Preimages of the runs to extend in the unit cube. Runs with the same discrete outcome get
+/// Preimages, in the unit cube, of the runs to extend. Runs with the same discrete outcome get
 /// different preimages, spread evenly over the interval of the outcome.
 /// @throws Error(input) for missing columns, and for points outside the parameters' domain
 PointSet preimages_of_runs(const Values& options, const WarpChain& chain, const RunContext& run) {
@@ -147,7 +147,7 @@ void warn_of_absent_levels(std::span<const double> rows, const Generator& genera
         std::set<double> outcomes;
         for (std::size_t l = 0; l + 1 < ends.size(); ++l) outcomes.insert(axes[k].outcome(ends[l]));
         std::set<double> absent = outcomes;
-        bool known = true;  // false: the column has other numbers, such as those of the cube
+        bool known = true;  // false if the column has other numbers, such as those of the cube
         for (std::size_t at = k; at < rows.size() && known; at += axes.size()) {
             known = outcomes.contains(rows[at]);
             absent.erase(rows[at]);
@@ -163,8 +163,8 @@ void warn_of_absent_levels(std::span<const double> rows, const Generator& genera
     }
 }
 
-/// Advances a sequential engine to point `start`, checking between steps whether to stop. Does
-/// nothing for a sequence with random access.
+/// Advances a sequence without random access to point `start`, checking between steps whether to
+/// stop. Does nothing for a sequence with random access.
 void walk_to(Sequence& sequence, std::uint64_t start, std::size_t dimension,
              const RunContext& run) {
     if (sequence.random_access()) return;
@@ -203,7 +203,7 @@ void need_memory_of(const Plan& plan, const RunContext& run) {
                     "the point set");
 }
 
-/// Generates the points start, start + 1, ... of a sequence in memory, as many as the plan has.
+/// Generates plan.count points of a sequence in memory, from index `start` on.
 PointSet points_of(Sequence& sequence, const Plan& plan, std::uint64_t start,
                    const RunContext& run) {
     const std::size_t d = plan.dimension;
@@ -484,9 +484,8 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
 
 namespace {
 
-/// Gives up if at most a fraction 1e-6 of the points has an image, after enough points of d
-/// coordinates for some seconds of work.
-/// @throws Error(input)
+/// Gives up if at most 1e-6 of `made` points of d coordinates have an image, once making them has
+/// taken some seconds. @throws Error(input)
 void check_share(std::uint64_t kept, std::uint64_t made, std::size_t d) {
     const std::uint64_t enough =
         std::max<std::uint64_t>(20'000'000 / std::max<std::size_t>(d, 2), 1'000'000);
@@ -499,8 +498,7 @@ void check_share(std::uint64_t kept, std::uint64_t made, std::size_t d) {
         kept == 0 ? "none" : std::to_string(kept), made);
 }
 
-/// Searches for one random point that satisfies the constraints, before large sets are made in
-/// vain.
+/// Tries random points until one satisfies the constraints, before large sets are made in vain.
 /// @throws Error(input)
 void look_for_one(const WarpChain& chain, std::size_t cube_dimension, const RunContext& run) {
     const Rng rng(1, 0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Generated and warped sets with their provenance. The points of a sequence are made in blocks, so
-// that their number does not matter; other sets are made one at a time in memory.
+// Generated and warped sets with their provenance. Points of a sequence are made in blocks, so that
+// a set need not fit in memory; other sets are made in memory, one at a time.
 #pragma once
 
 #include <cstdint>
@@ -35,11 +35,11 @@ struct SetsToMake {
     Request request = {};
     std::uint64_t sets = 1;
     std::vector<Spec> warps = {};
-    Shard shard = {};          ///< the part to write
+    Shard shard = {};
     std::string command = {};  ///< command line, for the provenance
 };
 
-/// The command line that makes the same sets, for callers that have none.
+/// Returns the command line that makes the same sets, for a job made by function calls.
 std::string command_of(const SetsToMake& asked);
 
 /// Parses a box "lo..hi,...": one range for all coordinates, one for each coordinate of the points,
@@ -58,8 +58,7 @@ struct Scaling {
 
 class GeneratedSets {
   public:
-    /// Completes the job. Warns with the generator's notes on the request.
-    /// @throws Error(usage)
+    /// Completes the job. Warns with the generator's notes on the request. @throws Error(usage)
     GeneratedSets(SetsToMake asked, const RunContext& run);
 
     [[nodiscard]] std::uint64_t sets() const { return asked_.sets; }
@@ -69,8 +68,8 @@ class GeneratedSets {
     [[nodiscard]] std::size_t dimension() const { return chain_->dimension_out(); }
     /// Domain of the points after all warps and scaling.
     [[nodiscard]] const DomainPtr& domain() const { return domain_; }
-    /// The warps and scrambles, for properties that all sets share: the random choices of its
-    /// scrambles are not those of any set.
+    /// Warps and scrambles with the properties that all sets share. Not for mapping points of a
+    /// set: its scrambles do not have the set's seed.
     [[nodiscard]] const WarpChain& chain() const { return *chain_; }
 
     /// Number of points of a set, if sets can be made in blocks; nullopt if they must be made in
@@ -109,8 +108,8 @@ class GeneratedSets {
     /// Generates the points of a set, before its warps.
     [[nodiscard]] PointSet raw_points(std::uint64_t set, const Plan& plan,
                                       const RunContext& run) const;
-    /// Replaces the images of earlier runs, which are the first points, by the exact numbers in the
-    /// file of these runs.
+    /// If the set extends the runs of an experiment, its first points are images of these runs:
+    /// replaces them by the exact numbers in the file of the runs.
     void keep_runs(PointSet& points, const RunContext& run) const;
 
     struct Images {
@@ -118,12 +117,12 @@ class GeneratedSets {
         std::uint64_t made;  ///< points generated, including those without an image
         std::uint64_t kept;  ///< of these, points with an image
     };
-    /// Returns as many images as requested, of a sequence's points. Points without an image are
-    /// skipped; request.start counts only those that have one.
+    /// Returns the requested number of images of a sequence's points. Points without an image are
+    /// skipped; request.start counts only points that have one.
     /// @throws Error(input) if almost no point has an image
     [[nodiscard]] Images next_images(std::uint64_t set, const RunContext& run) const;
-    /// Generates a slightly larger set, so that enough points have an image. If the generator has
-    /// no larger sets, returns fewer images than requested.
+    /// Generates slightly larger sets until enough points have an image. If the generator has no
+    /// larger sets, returns the images of `first`, which may be fewer than requested.
     /// @param first points of a set of the requested size, before warps
     [[nodiscard]] Images images_of_more(std::uint64_t set, const PointSet& first,
                                         const RunContext& run) const;
@@ -132,7 +131,6 @@ class GeneratedSets {
     /// matter.
     [[nodiscard]] std::shared_ptr<Sequence> sequence(std::uint64_t set,
                                                      const RunContext& run) const;
-    /// Makes the sequence of a set for a plan.
     [[nodiscard]] std::unique_ptr<Sequence> new_sequence(Plan plan, std::uint64_t set,
                                                          const RunContext& run) const;
 
@@ -141,7 +139,7 @@ class GeneratedSets {
     Plan plan_;
     std::shared_ptr<const WarpChain> chain_;
     DomainPtr domain_;
-    std::optional<Scaling> scaling_;  ///< nullopt: no bounds, or applied by the generator
+    std::optional<Scaling> scaling_;  ///< nullopt without bounds, or if the generator applies them
     std::vector<std::pair<std::string, std::string>> inputs_;
     mutable std::shared_ptr<Sequence> sequence_;  ///< the sequence made last
 };

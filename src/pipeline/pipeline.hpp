@@ -40,7 +40,7 @@ void require_in_cube(const PointSet& points, std::span<const std::size_t> coordi
 /// Calls require_in_cube() for all coordinates, with way_to_cube() as the hint.
 void require_unit_cube(const PointSet& points);
 
-/// Checks the densities of a set: each point has one above 0, or none has one.
+/// Checks the densities of a set: each point has a density above 0, or no point has one.
 /// @throws Error(usage), Error(input)
 void check_densities(const PointSet& points);
 
@@ -52,8 +52,8 @@ void check_set(const PointSet& points);
 /// sample of another domain. @throws Error(input)
 void require_cube_domain(const PointSet& points, const Analyzer& analyzer);
 
-/// Analyzes a set. First checks that the analyzer accepts the dimension and, if it is one for the
-/// unit cube, that this is the domain, and that all points are in the closed cube.
+/// Analyzes a set. First checks that the analyzer accepts the dimension. For an analyzer of the
+/// unit cube, also checks that this is the domain, and that all points are in the closed cube.
 /// @throws Error(input)
 Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& options,
                const RunContext& run);
@@ -70,8 +70,7 @@ struct Found {
 };
 
 /// Analyzes a set that arrives in blocks, with an analyzer that has `accumulate`. The report is the
-/// same as for the set in memory.
-/// @throws Error(input)
+/// same as for the set in memory. @throws Error(input)
 Found analyze(const Analyzer& analyzer, const Arrival& arrival, const NextRows& next,
               const Values& options, const RunContext& run);
 

@@ -15,7 +15,7 @@
 namespace stipple {
 namespace {
 
-/// A job, with everything that is the same for all its sets.
+/// A job, with the data that all its sets share.
 class Producer {
   public:
     Producer(const SetsToMake& job, const Target& target, const RunContext& run)
@@ -110,7 +110,7 @@ class Producer {
         if (job_.shard.index == 0) tell_found();
     }
 
-    /// Notes the results of a search for a lattice.
+    /// Reports the generating vector that a search for a lattice found, and its figure of merit.
     void tell_found() const {
         const auto found = sets_.provenance(0, 0).found;
         if (target_.take || found.size() != 2 || found[0].first != "vector") return;
@@ -122,7 +122,7 @@ class Producer {
     /// Makes one set in memory: generates and warps it, and cuts out the shard.
     [[nodiscard]] PointSet made(std::size_t set) const {
         RunContext run = part_of_run(run_, set, job_.sets);
-        if (job_.sets > 1) run.note = nullptr;  // it would hide the time that is left for all sets
+        if (job_.sets > 1) run.note = nullptr;  // notes on one set would hide the time left for all
         run.keeps_best = job_.sets == 1 && target_.path != "-" && !target_.take;
         PointSet points = sets_.made(set, run);
         const auto [first, last] = part(points.count());

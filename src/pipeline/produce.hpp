@@ -15,7 +15,7 @@ namespace stipple {
 /// @throws Error, without leaving output at the target
 void produce(const SetsToMake& job, const Target& target, const RunContext& run);
 
-/// Writes sets in memory.
+/// Writes sets that are in memory.
 /// @throws Error(input) if there are no sets, if one has no points, or if their dimensions differ
 void write_sets(std::vector<PointSet> sets, const Target& target, const RunContext& run);
 

@@ -32,8 +32,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// One thread watches for failures of other ranks, while the others wait or compute. A mutex keeps
-// threads from calling MPI at the same time.
+// One thread watches for failures of other ranks, while other threads wait or compute. The mutex
+// mpi_ keeps two threads from calling MPI at the same time.
 class MpiRanks : public Ranks {
   public:
     MpiRanks(std::stop_token stop, std::function<void()> request_stop)
@@ -166,10 +166,9 @@ class MpiRanks : public Ranks {
     static constexpr int data_tag = 1;     // tag of bytes by give()
     static constexpr int failure_tag = 2;
 
-    /// Starts an MPI operation and waits until it has finished. After many checks, sleeps between
-    /// them, since other ranks may need the core.
-    /// @throws the Error of another rank if that failed, since it may never take part in the
-    /// operation
+    /// Starts an MPI operation and waits until it has finished. After `eager` checks, sleeps
+    /// between them, since other ranks may need the core.
+    /// @throws the Error of another rank that failed, since it may never take part in the operation
     template <class Start>
     void complete(const Start& start) {
         MPI_Request request = MPI_REQUEST_NULL;
@@ -249,7 +248,7 @@ class MpiRanks : public Ranks {
     std::string host_;
     std::mutex mpi_;              ///< held during each MPI call
     std::optional<Error> heard_;  ///< error that ended another rank
-    bool failed_ = false;         ///< all ranks end, and know the error
+    bool failed_ = false;         ///< the error was exchanged with the other ranks, which end, too
     std::list<Outgoing> outgoing_;
     // Buffers of exchange(), members because MPI may use them even after an error has ended the
     // call.

@@ -18,8 +18,8 @@ namespace {
 
 std::string name_of_set(std::size_t set) { return set > 0 ? fmt::format("set {}", set) : "it"; }
 
-/// Calls take(rows) with the rows of a set until it returns false. The numbers are those that a
-/// reader gets from a file written in this way. Returns false if take() did.
+/// Calls take(rows) with batches of a set's rows until it returns false. The numbers are rounded as
+/// those read back from a file written as `written`. Returns false if take() did.
 bool each_batch(const SetStream& stream, const OpenSet& open, const Target& written,
                 const RunContext& run, const std::function<bool(std::span<const double>)>& take) {
     const std::size_t width = stream.dimension();
@@ -108,7 +108,7 @@ Comparison compared(const SetStream& stream, const Target& written, io::PointStr
     std::vector<double> more(file.dimension());
     for (std::size_t set = 0; set < stream.sets && result.mismatch.empty(); ++set) {
         const bool there = (unmarked && set > 0) || file.next_set();
-        // A file of one set may be one of several that were written together.
+        // A file of one set may be the first of several files that were written together.
         if (!there && set > 1)
             result.mismatch =
                 fmt::format("it has {} sets; made again there are {}", set, stream.sets);

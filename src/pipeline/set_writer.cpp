@@ -164,8 +164,8 @@ bool write_points(const SetStream& stream, OpenSet& open, std::size_t first, std
     return output.write(bytes);
 }
 
-/// Writes one file with the sets [first, last), and their side files. Returns false if the pipe was
-/// closed. Its reader has seen enough points, but the side files are still written.
+/// Writes one file with the sets [first, last), and their side files. Returns false if the reader
+/// closed the pipe; side files are written all the same.
 bool write_file(const SetStream& stream, std::size_t first, std::size_t last,
                 const std::string& path, const Target& target, io::Outputs& outputs,
                 RunContext run) {

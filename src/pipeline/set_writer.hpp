@@ -29,7 +29,7 @@ struct Columns {
 
 /// Destination of points, and the form in which they are written.
 struct Target {
-    std::string path = "-";          ///< may hold {set} and {seed}: a file for each set
+    std::string path = "-";          ///< may contain {set} and {seed}: one file per set
     const Format* format = nullptr;  ///< null: format_of() decides
     bool header = true;
     bool meta = false;
@@ -46,11 +46,10 @@ struct Target {
 bool was_interrupted(const Provenance& meta);
 
 /// Format of the target: the one it names, or that of its path's extension, or csv for a path
-/// without extension.
-/// @throws Error(usage) for an unknown extension
+/// without extension. @throws Error(usage) for an unknown extension
 const Format& format_of(const Target& target);
 
-/// Returns the target with those density columns added that the file of these points had.
+/// Adds to the target the density columns (pdf, weight) that the file of the points had.
 Target with_own_columns(Target target, const PointSet& points);
 
 /// Returns rows with the extra columns appended to each.
@@ -66,8 +65,7 @@ bool file_per_set(const std::string& path);
 std::string path_of_set(std::string path, std::size_t set, std::uint64_t seed);
 
 /// Writes the sets and their side files to the target. If anything fails, no files remain. Returns
-/// early, without an error, if the reader closes the pipe.
-/// @throws Error
+/// early, without an error, if the reader closes the pipe. @throws Error
 void write_sets(const SetStream& stream, const Target& target, const RunContext& run);
 
 }  // namespace stipple

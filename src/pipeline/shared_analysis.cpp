@@ -65,7 +65,7 @@ std::shared_ptr<SharedAccumulator> counted_in(const Analyzer& analyzer, const Sh
     return measure;
 }
 
-/// @throws Error(usage) for a pipe or a device, whose bytes would go to one rank or another
+/// @throws Error(usage) for a pipe or a device, whose bytes only one of the ranks would get
 std::uint64_t fingerprint_of(const std::string& path, const RunContext& run) {
     if (is_pipe(path))
         fail_with_hint(ErrorKind::usage, "store its bytes in a file",
@@ -78,7 +78,8 @@ std::uint64_t fingerprint_of(const std::string& path, const RunContext& run) {
     return hash;
 }
 
-/// Numbers of points and coordinates in a file of one set, like the first. @throws Error(input)
+/// Returns the counts of points and coordinates in a file.
+/// @throws Error(input) unless it holds one set, whose coordinates agree with those of `first`
 std::array<std::uint64_t, 2> size_of(const std::string& path, const std::string& first,
                                      const io::Opener& open) {
     const auto stream = open(path);

@@ -25,8 +25,8 @@ using NextRows = std::function<std::size_t(std::span<double> rows)>;
 NextRows rows_of(const PointSet& points, std::uint64_t first = 0);
 
 /// Calls take(rows) for one batch after another, until it returns false; the next batch is read
-/// meanwhile. Every batch except the last has exactly `batch` rows, so that sums by blocks do not
-/// vary. Returns false if take() did.
+/// meanwhile. Every batch except the last has exactly `batch` rows, so that sums over blocks are
+/// reproducible. Returns false if take() did.
 /// @param width numbers per row
 bool in_batches(const NextRows& next, std::size_t batch, std::size_t width, const RunContext& run,
                 const std::function<bool(std::span<const double>)>& take);

@@ -48,7 +48,7 @@ void for_each_unit(const Visit& visit) {
 }
 
 /// Names that are nearest to a word, at most one for each unit.
-/// @param unit_of the units' names by names and aliases
+/// @param unit_of the unit's name for each name and alias
 std::vector<std::string> near_names(const std::map<std::string, std::string>& unit_of,
                                     std::string_view word) {
     std::vector<std::string> all;
@@ -65,7 +65,7 @@ void refuse_unit(std::string_view kind, std::string_view name) {
     std::string word = lower_case(name);
     std::ranges::replace(word, '_', '-');
     std::vector<std::string> related;            // units that list the word as related
-    std::map<std::string, std::string> unit_of;  // units by their names and aliases
+    std::map<std::string, std::string> unit_of;  // names of units, by their names and aliases
     for_each_unit([&](std::string_view own, const auto& unit) {
         if (own != kind && is_called(unit, word))
             fail_with_hint(

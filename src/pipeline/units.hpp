@@ -14,8 +14,7 @@
 
 namespace stipple {
 
-/// Returns the unit with this name or alias.
-/// @throws Error(usage) that suggests the nearest name
+/// Returns the unit with this name or alias. @throws Error(usage) that suggests the nearest name
 const Generator& find_generator(std::string_view name);
 const Warp& find_warp(std::string_view name);
 const Analyzer& find_analyzer(std::string_view name);
@@ -41,8 +40,8 @@ Spec in_unit_cube(Spec parameters);
 /// if the generator is unknown.
 std::string unlike_prefixes(const Provenance& made);
 
-/// Completes a provenance read from a file by what the record of its generator says: whether the
-/// points are independent.
+/// Sets the field that a provenance read from a file lacks: `independent`, from its generator's
+/// traits.
 void complete(Provenance& provenance);
 
 /// A generator with its options and its own warps, as one text:

@@ -17,8 +17,8 @@
 namespace stipple {
 namespace {
 
-/// Records a warp in the provenance of a set. If the set's numbers were truncated when written,
-/// this becomes an earlier step.
+/// Records a warp in the provenance of a set. If the set's numbers were truncated when written, the
+/// truncation is recorded before it, as a step.
 void record_warp(PointSet& set, const WarpChain& chain, bool inverse,
                  const std::vector<std::pair<std::string, std::string>>& inputs) {
     Provenance& meta = set.provenance;
@@ -39,7 +39,7 @@ void record_warp(PointSet& set, const WarpChain& chain, bool inverse,
     meta.warps.push_back(warp);
 }
 
-/// The mapping of a warp that is given `dimension` coordinates, unless it names its own.
+/// The mapping of a warp of the coordinates that `spec` names or, without any, of `dimension` ones.
 auto mapping_of(const Spec& spec, std::size_t dimension, const RunContext& run) {
     const Warp& warp = find_warp(spec.name);
     const std::size_t given = spec.coordinates.empty() ? dimension : spec.coordinates.size();
@@ -78,8 +78,7 @@ bool others_in_cube(const PointSet& points, std::span<const std::size_t> taken,
 }
 
 /// Checks that no other set follows in a text, if its number of sets was not known when output
-/// began.
-/// @throws Error(input)
+/// began. @throws Error(input)
 void refuse_second_set(io::PointStream& stream) {
     if (stream.sets() || !stream.next_set()) return;
     fail_with_hint(ErrorKind::input, "give each set in a file of its own",
@@ -149,7 +148,7 @@ struct Warping {
     std::vector<Factor> before;      ///< domains of coordinates that are already warped
     std::shared_ptr<const WarpChain> chain;
     std::vector<std::pair<std::string, std::string>> inputs = {};
-    std::shared_ptr<const WarpChain> stretch = {};  ///< its density is the change of densities
+    std::shared_ptr<const WarpChain> stretch = {};  ///< the warp alone, to change densities
 };
 
 /// Image or preimage of a set, with updated provenance.
@@ -257,7 +256,7 @@ PointSet warped_set(const PointSet& set, const Spec& warp, bool inverse, const R
     Spec spec = warp;
     const auto has_seed = [](const auto& item) { return item.first == scramble_seed.name; };
     if (scramble_named(spec.name) != nullptr && std::ranges::none_of(spec.settings, has_seed))
-        spec.settings.emplace_back(scramble_seed.name, std::to_string(of.seed));  // is recorded
+        spec.settings.emplace_back(scramble_seed.name, std::to_string(of.seed));  // to be recorded
     return warped(set, Warping(spec, inverse, set.domain, {}, run, of, densities), run);
 }
 

@@ -31,7 +31,7 @@ struct Unwarped {
 /// unknown.
 std::vector<std::uint32_t> digit_bases(const Provenance& meta);
 
-/// A provenance without its recipe: names, levels, size and domain.
+/// A provenance without the recipe: only names, levels, size and domain of the points.
 Provenance without_making(const Provenance& meta);
 
 /// Whether a step of a provenance says that numbers were truncated.
@@ -69,8 +69,7 @@ void write_warped(Unwarped from, const Spec& warp, bool inverse, const Target& t
 void write_density_at(const Unwarped& at, const Spec& warp, Target target, const RunContext& run);
 
 /// Writes `replications` independently scrambled copies of each set, with the seeds seed, seed + 1,
-/// ...
-/// @throws Error(input) for points outside the unit cube
+/// ... @throws Error(input) for points outside the unit cube
 void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, std::uint64_t seed,
                      std::uint64_t replications, const Target& target, const RunContext& run);
 
