@@ -22,8 +22,8 @@ double quantile(std::span<const double> sorted, double q) {
     return sorted[below] + part * (sorted[below + 1] - sorted[below]);
 }
 
-/// Numbers that differ by less, relative to the larger one, differ by rounding: a shift of the
-/// points, for example, changes a distance in its last digits.
+/// Largest relative difference that counts as rounding: a shift of the points, for example, changes
+/// the last digits of a distance.
 constexpr double rounding = 0x1p-44;
 
 bool equal_but_for_rounding(double a, double b) {
@@ -31,11 +31,11 @@ bool equal_but_for_rounding(double a, double b) {
     return std::isfinite(larger) && std::abs(a - b) <= rounding * larger;
 }
 
-/// a - b, or 0 if they are equal but for rounding.
+/// a - b, or 0 if they are equal except for rounding.
 double difference_of(double a, double b) { return equal_but_for_rounding(a, b) ? 0 : a - b; }
 
-/// A power of two near the largest magnitude. Numbers divided by it have squares that neither
-/// overflow nor vanish, and the same digits.
+/// A power of two near the largest magnitude: dividing by it keeps all digits, and the squares of
+/// the quotients neither overflow nor all vanish.
 double scale_of(std::span<const double> numbers) {
     double largest = 0;
     for (const double x : numbers) largest = std::max(largest, std::abs(x));
@@ -75,7 +75,7 @@ SampleSummary summarize(std::span<const double> sample) {
     std::vector<double> sorted(sample.begin(), sample.end());
     std::ranges::sort(sorted);
     s.median = quantile(sorted, 0.5);
-    // The mean of equal numbers is one of them: their sum is rounded, and would differ from them.
+    // The mean of equal numbers is one of them, not their rounded sum divided by n.
     const bool same = equal_but_for_rounding(sorted.front(), sorted.back());
     s.mean =
         same ? sorted[sorted.size() / 2] : std::accumulate(sample.begin(), sample.end(), 0.0) / n;

@@ -39,8 +39,8 @@ struct SampleSummary {
     std::size_t count = 0;
     double mean = not_known;
     double median = not_known;
-    double deviation = not_known;       ///< standard deviation of the sample
-    double standard_error = not_known;  ///< standard error of the mean
+    double deviation = not_known;  ///< standard deviation of the sample
+    double standard_error = not_known;
 };
 
 SampleSummary summarize(std::span<const double> sample);

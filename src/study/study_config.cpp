@@ -239,8 +239,7 @@ class CountRange {
     }
 
     /// Base of the powers that a range is written with: 2 in 2^4..2^16.
-    /// @throws Error(usage) if the ends are not such powers: then the numbers between them are
-    /// unclear
+    /// @throws Error(usage) unless both ends are powers of it: the numbers between are then unclear
     std::uint64_t base(std::uint64_t first, std::uint64_t last) const {
         const auto mark = text_.find('^');
         const auto end = text_.substr(0, mark);

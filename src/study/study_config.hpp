@@ -28,8 +28,7 @@ StudySettings parse_study_config(std::string_view json, const std::string& sourc
 std::vector<std::string> study_config_keys();
 
 /// Parses a list of numbers: 16,64,256; ranges by a factor, 16..65536*2, or by a step, 10..50+10;
-/// and 2^4..2^16 for all powers of the base as written. A range ends at the last number that is not
-/// above its end.
+/// or all powers of a base, 2^4..2^16. A range ends at the last number that is not above its end.
 /// @throws Error(usage) naming `who` for an empty list or range, a number outside [low, high], and
 /// a number given twice
 std::vector<std::uint64_t> parse_counts(std::string_view text, std::string_view who,

@@ -100,10 +100,9 @@ class Lines {
     std::ifstream in_;
 };
 
-/// Path of the journal of a table.
 std::string journal_of(const std::string& table) { return real_file(table) + ".journal"; }
 
-/// The first setting with another text in the file, for a message; empty if there is none.
+/// Describes the first setting that differs in the file; empty if there is none.
 std::string difference(const Json& file, const Sweep& ours) {
     for (const auto& [name, value] : ours.settings())
         if (const Json other = file.value(name, Json()); other.is_string() && other != value)
@@ -118,9 +117,9 @@ Json json_of_settings(const Sweep& sweep) {
     return settings;
 }
 
-/// As difference(), for a table without a journal, whose rows show neither the keys asked for nor
-/// limits: finds them by the fingerprint.
-/// @param ours the study of the rows with our other settings
+/// As difference(), for a table without a journal, whose rows do not show the requested keys,
+/// curves and limits: tries those of `ours` and a few others until the fingerprint agrees.
+/// @param ours the study of the rows, with the other settings of this study
 /// @param keys of all rows, once each
 std::string hidden_difference(const Sweep& ours, const std::string& fingerprint,
                               const std::vector<std::string>& keys) {
@@ -135,7 +134,7 @@ std::string hidden_difference(const Sweep& ours, const std::string& fingerprint,
                     const Sweep theirs(std::move(request));
                     if (theirs.fingerprint() == fingerprint)
                         return difference(json_of_settings(theirs), ours);
-                } catch (const Error&) {  // such keys cannot be asked for
+                } catch (const Error&) {  // a study cannot have such keys
                 }
             }
     return ": of other keys, another time-limit or version of stipple, which rows do not show";
@@ -211,7 +210,7 @@ class StudyFile::TableReader {
         if (row.failed()) failure_ = row;
     }
 
-    /// Ends the part with the rows of a smaller study. The rows of this study follow.
+    /// Ends the part of the table with rows of a smaller study. The rows of this study follow.
     void begin_own_part(const StudyRow& row) {
         if (part_ == &file_.sweep_ || row.study != file_.sweep_.fingerprint()) file_.refuse_other();
         end_part(false);
@@ -246,7 +245,7 @@ class StudyFile::TableReader {
     void end_unit() {
         if (!like_) return;
         const std::uint64_t unit = own_unit();
-        // Memory and files may be there now: such a unit is measured again.
+        // Memory or a missing file may be available now: such a unit is measured again.
         if (failure_ && failure_->lacked_something()) return;
         if (failure_) file_.note_failure(unit, *failure_);
         file_.store({unit, unit + 1}, begin_, end_ - begin_);
@@ -257,7 +256,7 @@ class StudyFile::TableReader {
     bool end_part(bool finished) {
         if (!like_) return true;
         const auto& [row, keys] = usual_keys_[like_->measure];
-        // Sets of another cell may have longer or shorter lists, so their keys prove nothing.
+        // Sets of another cell may have longer or shorter lists, so equal keys prove nothing.
         const bool alike = finished || !keys_.back().ends_with(']') ||
                            (row.generator == like_->generator && row.count == like_->count &&
                             row.dimension == like_->dimension);
@@ -359,7 +358,7 @@ void StudyFile::lock_journal() {
     struct stat there = {};
     const bool alone = ::flock(journal_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
     if (!alone) fail(ErrorKind::io, "{}: another study is writing to it", path_);
-    // Another process may have finished in the meantime: then the opened file has become its table.
+    // Another process may have finished in between: the opened journal is then its table.
     if (::fstat(journal_, &locked) != 0 || ::stat(journal_of(path_).c_str(), &there) != 0 ||
         locked.st_ino != there.st_ino)
         fail(ErrorKind::io, "{}: another study is writing to it", path_);
@@ -391,8 +390,7 @@ void StudyFile::refuse_other(std::string differs) const {
 }
 
 /// Returns the finished study that this one extends, if the table begins with rows of another
-/// study; otherwise nullopt.
-/// @throws Error(input) if this study does not extend the other one
+/// study; otherwise nullopt. @throws Error(input) if this study does not extend the other one
 std::optional<Sweep> StudyFile::smaller_study(const RunContext& run) const {
     SweepRequest request = sweep_.request();
     for (auto* list : {&request.generators, &request.measures}) list->clear();

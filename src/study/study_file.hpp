@@ -34,7 +34,7 @@
 
 namespace stipple {
 
-/// Notifies if a table's journal exists, a file that is removed when the study is finished.
+/// Warns if the table has a journal, that is, if its study is not finished.
 void note_unfinished(const std::string& table, const RunContext& run);
 
 /// Summary of the units that failed.
@@ -73,16 +73,14 @@ class StudyFile {
     [[nodiscard]] bool has_journal() const { return journal_ >= 0; }
 
     /// Writes units; safe to call from several threads. Returns false if the reader of the pipe has
-    /// closed it.
-    /// @throws Error(io), now and in all later calls
+    /// closed it. @throws Error(io), now and in all later calls
     bool put(const Segment& segment);
 
     /// Flushes new rows to the disk; safe to call while another thread calls put().
     void sync();
 
     /// Passes the rows of a file to the listener, after all units have been put. Does nothing for a
-    /// stream, whose rows were passed when they were written.
-    /// @throws Error(cancelled), Error(io)
+    /// stream, whose rows were passed when they were written. @throws Error(cancelled), Error(io)
     void listen(const RunContext& run) const;
 
     /// For a file: sorts its rows and removes its journal. For a stream: appends the text `more`.
@@ -122,7 +120,7 @@ class StudyFile {
     int output_ = -1;
     int journal_ = -1;
     std::mutex mutex_;                          // guards the members down to failures_
-    std::map<std::uint64_t, Stored> index_;     ///< stored units, by the first unit of each run
+    std::map<std::uint64_t, Stored> index_;     ///< stored units, by the first of each range
     std::map<std::uint64_t, Segment> waiting_;  ///< early segments of a stream, by first unit
     std::uint64_t head_size_ = 0;               ///< bytes above the rows
     std::size_t head_lines_ = 0;                ///< lines above the rows

@@ -74,7 +74,7 @@ WorkDone unpacked(Unpacker& from) {
 RunContext share_of(const RunContext& run, std::uint64_t workers, unsigned threads) {
     RunContext share = run;
     share.max_memory = run.max_memory / workers;
-    share.memory_in_use = {};  // depends on other workers, but rows must not
+    share.memory_in_use = {};  // varies with the other workers, but rows must not
     share.threads = threads;
     return share;
 }
@@ -127,7 +127,7 @@ class Leader {
         return ranges;
     }
 
-    /// Threads for a piece: one, unless there are fewer pieces than threads.
+    /// Threads for a piece: one, unless this process alone has more threads than pieces.
     unsigned inner_threads() {
         const std::lock_guard lock(mutex_);
         if (ranks_.size() > 1) return 1;

@@ -416,7 +416,7 @@ std::string wide_latex(std::span<const MeanRow> means, const std::string& comman
     const Wide wide(means);
     LatexTable table{.comments = {fmt::format("stipple {}: {}", STIPPLE_VERSION, command)}};
     const std::vector<std::string> heads = {"measure", "key", "$d$", "$n$"};
-    std::vector<std::size_t> shown;  // columns of labels that vary, or n
+    std::vector<std::size_t> shown;  // label columns to show: those that vary, or n
     for (std::size_t k = 0; k < label_columns; ++k) {
         const std::string first = wide.rows.empty() ? "" : wide.labels(wide.rows.begin()->first)[k];
         const bool varies = std::ranges::any_of(

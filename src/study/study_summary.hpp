@@ -42,7 +42,7 @@ struct MeanRow {
     double median = not_known;
     double standard_deviation = not_known;
     double rms = not_known;      ///< root mean square
-    double rms_low = not_known;  ///< known for errors
+    double rms_low = not_known;  ///< interval of rms, only for errors
     double rms_high = not_known;
     double confidence = not_known;  ///< level of the intervals
     double t_low = not_known;       ///< Student's t interval of the mean
@@ -68,19 +68,16 @@ class StudySummary {
         return samples_.empty() ? 1 : samples_[0].seeds[0];
     }
 
-    /// A row for each generator, dimension, count, measure and key.
-    /// @throws Error(cancelled)
+    /// A row for each generator, dimension, count, measure and key. @throws Error(cancelled)
     [[nodiscard]] std::vector<MeanRow> mean_rows(const SummaryOptions& options,
                                                  const RunContext& run) const;
 
-    /// mean_rows() as a table.
-    /// @throws Error(cancelled)
+    /// mean_rows() as a table. @throws Error(cancelled)
     [[nodiscard]] std::string means(TableStyle style, const SummaryOptions& options,
                                     const RunContext& run) const;
 
     /// Table with a row for each pair of generators that have values. Warns of pairs with the same
-    /// values everywhere.
-    /// @throws Error(cancelled)
+    /// values everywhere. @throws Error(cancelled)
     [[nodiscard]] std::string comparisons(TableStyle style, const SummaryOptions& options,
                                           const RunContext& run) const;
 
@@ -137,8 +134,8 @@ std::optional<std::variant<std::vector<MeanRow>, StudySummary>> read_study(
 std::optional<std::vector<MeanRow>> read_means(std::string_view bytes, const std::string& source,
                                                const RunContext& run);
 
-/// Replaces the generators, in the order of their first rows. @throws Error(usage) if there are not
-/// as many labels
+/// Replaces the names of the generators by labels, in the order of their first rows.
+/// @throws Error(usage) unless there is a label for each generator
 void label_generators(std::vector<MeanRow>& means, std::span<const std::string> labels);
 
 // A wide table has a row for each measure, key, dimension and count, and columns for each

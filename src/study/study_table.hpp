@@ -32,16 +32,16 @@ struct StudyRow {
     std::string measure = {};  ///< spec
     std::string measure_options = {};
     std::string domain = {};  ///< domain of the measured points
-    std::string key = {};     ///< key of the result
+    std::string key = {};
     std::optional<double> value = {};
     std::string status = "ok";  ///< "ok" or "failed"
-    std::string reason = {};    ///< reason of a failure
-    std::string study = {};     ///< fingerprint of the study
+    std::string reason = {};
+    std::string study = {};  ///< fingerprint of the study
     std::optional<double> generate_seconds = {};
     std::optional<double> seconds = {};
 
     [[nodiscard]] bool failed() const { return status != "ok"; }
-    /// Whether memory or a file was lacking, which may be there in another run.
+    /// Whether the unit failed for lack of memory or of a file, and may succeed in another run.
     [[nodiscard]] bool lacked_something() const {
         return reason.starts_with(lack_of_memory) || reason.starts_with(lack_of_file);
     }
@@ -66,7 +66,7 @@ struct UnitResult {
 /// Results of consecutive units.
 struct Segment {
     UnitRange units;
-    std::vector<UnitResult> results = {};  ///< one per unit
+    std::vector<UnitResult> results = {};
 };
 
 /// Row with the columns that are the same in all rows of a unit; the others are unset.

@@ -146,7 +146,7 @@ void Sweep::choose() {
     choose_keys(request_.keys, measures_);
 }
 
-/// Index of the list with a generator's own warps and those of all generators.
+/// Index of the list of a generator's own warps, followed by the request's warps.
 std::size_t Sweep::warp_list(std::vector<std::string> own) {
     own.insert(own.end(), request_.warps.begin(), request_.warps.end());
     WarpList list{.names = own};

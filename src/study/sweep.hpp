@@ -81,14 +81,14 @@ struct UnitRange {
     bool operator==(const UnitRange&) const = default;
 };
 
-/// Whether `wanted` is the name of a result, or a part of it between dots. Parts of the name that
-/// are in capitals match any word.
+/// Whether `wanted` is the name of a result, or a part of it between dots. A part of `result` in
+/// capitals matches any word.
 bool names_result(const std::string& result, std::string_view wanted);
 
 /// Whether `key` is the name of a result of the analyzer, or a part of it.
 bool has_result(const Analyzer& analyzer, std::string_view key);
 
-/// A key without the name of its analyzer before it; "value" for the name alone.
+/// Removes the analyzer's name from the front of a key; "value" if the key is the name alone.
 std::string without_name(const std::string& key, const Analyzer& analyzer);
 
 class Sweep {
@@ -104,7 +104,7 @@ class Sweep {
     [[nodiscard]] const WarpList& warps_of(std::size_t generator) const {
         return warp_lists_[generators_[generator].warps];
     }
-    /// The warps of all generators as written in rows, separated by blanks.
+    /// The request's warps as rows name them, joined by blanks; they follow the generators' own.
     [[nodiscard]] const std::string& warp_names() const { return warp_names_; }
 
     [[nodiscard]] std::uint64_t cells() const;

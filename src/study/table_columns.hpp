@@ -31,7 +31,7 @@ inline std::string text_of(const std::optional<std::uint64_t>& field) {
     return field ? std::to_string(*field) : "";
 }
 
-// These read a field from the text of a cell. They return false if the text does not fit the field.
+// Overloads of read() parse the text of a cell. They return false if it does not fit the field.
 inline bool read(const std::string& text, std::string& field) {
     field = text;
     return true;

@@ -96,8 +96,8 @@ PointSet some_points(std::size_t dimension, std::size_t count = 64) {
     return points;
 }
 
-/// Returns the error that a measure throws for such points; nullopt if it accepts them, fails for
-/// another reason, or is not done after `limit` seconds.
+/// Returns the Error that a measure throws for the points; nullopt if it accepts them, throws
+/// another exception, or is not done after `limit` seconds.
 std::optional<Error> refusal(const Chosen<Analyzer>& measure, const PointSet& points,
                              const RunContext& run, std::optional<double> limit = {}) {
     try {
@@ -108,7 +108,7 @@ std::optional<Error> refusal(const Chosen<Analyzer>& measure, const PointSet& po
         if (e.kind() == ErrorKind::cancelled) throw;
         return e;
     } catch (const std::exception&) {
-        return std::nullopt;  // its rows report what is wrong
+        return std::nullopt;  // the measure's rows report the error
     }
     return std::nullopt;
 }
@@ -249,7 +249,7 @@ bool UnitRunner::may_take_image(const View& view, const RunContext& run) const {
     }
 }
 
-// Makes each set once, and only one set if the seed has no effect.
+// Makes each set once; a set serves all seeds if the seed has no effect.
 WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext& run) const {
     const RunContext quiet = unwarned(silent(run));
     const bool shares_memory = run.max_memory < whole_memory_;
@@ -303,7 +303,7 @@ std::optional<Error> UnitRunner::refusal_of(const View& view, std::size_t count,
                 image_of(points, WarpChain(warps, view.dimension, {}, run), unwarned(silent(run)));
     } catch (const Error& e) {
         if (e.kind() == ErrorKind::cancelled) throw;
-        return std::nullopt;  // its rows report what is wrong
+        return std::nullopt;  // the measure's rows report the error
     }
     auto error = refusal(sweep_.measures()[view.measure], points, run, soon);
     return error && error->kind() == ErrorKind::usage ? error : std::nullopt;

@@ -53,7 +53,7 @@ class UnitRunner {
     void require_options(const RunContext& run) const;
 
   private:
-    /// Sets that look alike to a measure.
+    /// A measure, with sets that it accepts or refuses alike.
     struct View {
         std::size_t warps = 0;  ///< index of their WarpList
         std::size_t dimension = 0;

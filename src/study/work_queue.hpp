@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Pieces of work of a study. The shortest come first, so that an early stop keeps rows. Several
-// workers do so in the first twentieth of the work. Then half of their time goes to the longest
-// pieces, so that none is left when everything else is done, and half to the shortest, so that a
-// study that is stopped and resumed again and again gains rows each time. Pieces that take at most
-// the grain are in the study's order, as streams need them.
+// The work of a study, in pieces. A single worker takes the shortest pieces first, so that an early
+// stop keeps rows. Several workers do so in the first twentieth of the work. Then half of their
+// time goes to the longest pieces, so that none is left when everything else is done, and half to
+// the shortest, so that a study that is often stopped and resumed gains rows each time. Pieces that
+// take at most `grain_` seconds are in the study's order, as streams need them.
 //
 // A piece is some sets of one cell or, if measuring a set costs more than making it again, one
 // measure of one set. Pieces take at most about a second if possible, so that little is lost by an
@@ -13,7 +13,7 @@
 // Times are first modelled, by the cost functions of the units (n d for units without one), and
 // later corrected by measured times:
 //
-//     seconds = model x (spent / model of finished work),   of the cell or, if it has none, of all.
+//     seconds = model x (spent / model of finished work, of the cell or, if it has none, of all)
 //
 // Shape   memory grows with the number of cells, not of sets.
 // Beware  the model is wrong by a factor of up to ten or so.
@@ -87,8 +87,8 @@ class WorkQueue {
     double ahead_ = 0;  ///< seconds of the short pieces pulled, minus those of the long ones
     std::vector<CellWork> work_;
     CellWork all_;                      ///< `finished` and `spent` of all cells
-    std::vector<std::uint64_t> cells_;  ///< not pulled completely; the last one is next, or longest
-    std::size_t within_grain_ = 0;      ///< cells at the beginning of cells_ with short pieces
+    std::vector<std::uint64_t> cells_;  ///< cells with units left; the last one is next, or longest
+    std::size_t within_grain_ = 0;      ///< number of first cells_ with pieces of at most grain_
     std::uint64_t pieces_left_ = 0;
     std::uint64_t finished_ = 0;  ///< number of finished pieces
 };
