@@ -42,7 +42,7 @@ constexpr std::size_t most_waiting = std::size_t{1} << 12;
 /// Adds another set's time, source and count to a mean.
 void add_to(Measurement& mean, const Measurement& m) {
     mean.seconds = mean.seconds.value_or(0) + m.seconds.value_or(0);
-    const std::string added = ", " + m.source;  // unless it is a later set of the last source
+    const std::string added = ", " + m.source;  // not for later sets of the last source
     if (mean.source != m.source && !mean.source.ends_with(added)) mean.source += added;
     if (mean.columns != m.columns) mean.columns.clear();
     const std::uint64_t largest = std::max({mean.count, mean.largest_count, m.count});

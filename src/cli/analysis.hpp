@@ -22,7 +22,6 @@
 
 namespace stipple::cli {
 
-/// Origin of a set.
 struct SetOrigin {
     std::string source;                      ///< file, or spec of a generator
     std::optional<std::size_t> number = {};  ///< index, if the source has several sets
@@ -59,15 +58,14 @@ class Analysis {
     /// immediately, with all threads and all memory.
     void add(PointSet points, SetOrigin origin);
 
-    /// Measures a set that arrives in blocks. Sets origin.kind if averaging needs it and it is
-    /// empty.
+    /// Measures a set that arrives in blocks. Sets an empty origin.kind if averaging needs it.
     void add(const Arrival& arrival, const NextRows& next, SetOrigin& origin,
              const Provenance& made, const RunContext& run);
 
     /// Adds an existing measurement.
     void keep(Measurement m, const SetOrigin& origin);
 
-    /// Runs work() on a set in the domain, and records its result and time.
+    /// Runs work() for a set, and returns its result and time as a measurement.
     [[nodiscard]] Measurement timed(const SetOrigin& origin, const DomainPtr& domain,
                                     const Values& options,
                                     const std::function<Found()>& work) const;
@@ -86,7 +84,7 @@ class Analysis {
     /// Clears the index of the last set, which was the only one of its source.
     void forget_number() { measurements_.back().set.reset(); }
 
-    /// Found value if a check fails; nullopt if it holds.
+    /// Returns the value that fails a check; nullopt if the check holds.
     [[nodiscard]] std::optional<std::string> broken(const Check& check,
                                                     const Report& results) const;
 
@@ -143,7 +141,7 @@ class Analysis {
     std::vector<Group> groups_;  ///< one per measurement, if averaging
     std::map<std::string, std::size_t> group_indices_;
     std::vector<Waiting> waiting_;
-    std::size_t numbers_ = 0;  ///< coordinates of the collected sets
+    std::size_t numbers_ = 0;  ///< number of coordinates in the collected sets
 };
 
 }  // namespace stipple::cli

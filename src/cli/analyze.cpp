@@ -52,8 +52,8 @@ bool is_part(const std::string& key, const std::string& wanted) {
     return fmt::format(".{}.", key).find(fmt::format(".{}.", wanted)) != std::string::npos;
 }
 
-/// The results that some of `wanted` name, entirely or by a part between dots; value[0] selects one
-/// number of a list.
+/// The results that a word of `wanted` names, entirely or by a part between dots; value[0] selects
+/// one number of a list.
 Report picked(const Report& report, const std::vector<std::string>& wanted,
               const std::string& group = {}) {
     Report kept;
@@ -130,7 +130,7 @@ class AnalyzeCall {
 
   private:
     [[nodiscard]] bool several_analyzers() const { return request_.analyzers.size() > 1; }
-    /// The first analysis; the only one, except for several analyzers.
+    /// The first analysis: the only one, unless there are several analyzers.
     [[nodiscard]] Analysis& only() const { return *analyses_.front(); }
 
     /// Name of the column of weights, from the analyzer's option; empty if not given.
@@ -149,8 +149,8 @@ class AnalyzeCall {
         return !several_analyzers() && only().analyzer().accumulate && !request_.rescale;
     }
 
-    /// Checks that --weights applies to the sources of points, and tells of files given twice, whose
-    /// sets are not independent. @throws Error(usage)
+    /// Checks that --weights applies to the sources of points; reports files that are given twice,
+    /// whose sets are not independent. @throws Error(usage)
     void require_sources() const {
         for (auto i = inputs_.begin(); request_.averaged() && i != inputs_.end(); ++i)
             if (std::find(inputs_.begin(), i, *i) != i)
@@ -392,8 +392,8 @@ class AnalyzeCall {
             if (&each->analyzer() == &analyzer) keys_[each.get()].push_back(key);
     }
 
-    /// Checks keys that only a word in capitals, such as OUTPUT, allowed before the results were
-    /// known. @throws Error(usage)
+    /// Checks keys, now that results are known, that were accepted only because a word in capitals,
+    /// such as OUTPUT, matches any word. @throws Error(usage)
     void require_keys() const {
         for (const auto& [analysis, keys] : keys_)
             for (const std::string& text : keys) {
@@ -532,7 +532,7 @@ class AnalyzeCall {
     io::Outputs files_;  ///< the report and the files beside it
     std::vector<std::unique_ptr<Analysis>> analyses_;
     std::vector<NamedCheck> checks_;
-    std::map<const Analysis*, std::vector<std::string>> keys_;  ///< of --keys
+    std::map<const Analysis*, std::vector<std::string>> keys_;  ///< results that --keys selects
 };
 
 }  // namespace

@@ -17,7 +17,6 @@
 namespace stipple::cli {
 namespace {
 
-/// Exit code for a kind of error.
 int exit_code(ErrorKind kind) {
     constexpr std::array codes = {2, 3, 4, 5, 130};  // usage, input, io, limit, cancelled
     return codes.at(static_cast<std::size_t>(kind));
@@ -97,7 +96,7 @@ int run_verb(int argc, char** argv) {
 }  // namespace
 
 int work_on(Request& request, Session& session) {
-    // The ranks compare the file.
+    // The ranks must be joined before they compare the file.
     if (request.parameters_file && is_shared(info_of(*request.verb).name))
         launched(request, session.run());
     read_parameter_file(request, session.run());

@@ -215,7 +215,7 @@ struct Bounds {
     }
 };
 
-/// Removes rows with a missing number (NaN), such as failed runs; notes and returns how many.
+/// Removes rows with a missing number (NaN), such as failed runs; reports and returns their number.
 /// @throws Error(input) if none remain
 std::size_t leave_out_gaps(PointSet& set, const std::string& input, const RunContext& run) {
     const std::size_t d = set.dimension();
@@ -243,7 +243,6 @@ std::size_t leave_out_gaps(PointSet& set, const std::string& input, const RunCon
     return left_out;
 }
 
-/// Sets the domain from --domain, if given.
 void take_domain(PointSet& set, const Sources& from) {
     if (from.domain) set.domain = parse_domain(*from.domain, set.dimension());
 }

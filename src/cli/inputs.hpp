@@ -17,8 +17,8 @@
 
 namespace stipple::cli {
 
-/// Inputs on the command line; without any, standard input if --generate is not given, either.
-/// Files joined by --concat are one input. @throws Error(usage) if standard input is named twice
+/// Inputs on the command line or, without inputs and --generate, standard input. Files joined by
+/// --concat are one input. @throws Error(usage) if standard input is named twice
 std::vector<std::string> input_names(const Sources& from);
 
 /// The input of a verb that takes exactly one. @throws Error(usage) if there are more
@@ -70,7 +70,7 @@ std::size_t place(PointSet& points, const std::string& input, const Sources& fro
 /// analyzers of the cube and with --rescale; otherwise it becomes the domain.
 PointSet prepared(PointSet points, const Analyzer& analyzer, const Sources& from);
 
-/// Domain and number of a stream's points, after the same options as prepared() applies.
+/// Domain and count of a stream's points, after the options that prepared() applies.
 Arrival arrival_of(const io::PointStream& stream, bool weighted, const Analyzer& analyzer,
                    const Sources& from, const RunContext& run);
 
@@ -83,7 +83,7 @@ SharedSet shared_files(const Sources& from, const Analyzer& analyzer, const std:
                        Ranks& ranks, const RunContext& run);
 
 /// The seed of --seed; for --seed random, a random one up to `largest`, which is reported.
-/// @throws Error(usage) on all ranks, each of which would draw its own
+/// @throws Error(usage) for --seed random on several ranks, each of which would draw its own
 std::uint64_t seed_of(const Request& request, std::uint64_t largest, Session& session);
 
 /// Largest seed that the generator accepts.

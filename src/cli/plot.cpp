@@ -161,7 +161,7 @@ class Plot {
     }
 
   private:
-    /// Whether points, reports and studies share the sheet.
+    /// Whether the sheet has more than one of points, reports and studies.
     [[nodiscard]] bool several_kinds() const {
         return !reports_.empty() + !sets_.empty() + !means_.empty() > 1;
     }
@@ -599,7 +599,7 @@ class Plot {
                   table.differences ? names_of(std::nullopt) : renamed({}));
     }
 
-    /// Adds the table of each input; tables share bars for the shades at the ends of rows.
+    /// Adds the table of each input; tables share colour bars at the ends of rows.
     void add_tables() {
         refuse_scales("a table");
         const std::vector<std::size_t> firsts = firsts_of_inputs();

@@ -22,8 +22,8 @@
 namespace stipple::cli {
 namespace {
 
-/// Files for --vector-output: the lattice in the provenance, from the results of its search if it
-/// was searched for.
+/// Side files for --vector-output: the lattice of the provenance's options or, if a search found
+/// it, of the results of the search.
 std::vector<SideFile> vector_files(const Provenance& meta, const ConvertRequest& request,
                                    const RunContext& run) {
     const Generator* generator = generator_named(meta.generator);
@@ -50,11 +50,11 @@ std::vector<SideFile> vector_files(const Provenance& meta, const ConvertRequest&
     return sets.side_files();
 }
 
-/// Positions among the columns of the coordinates that a warp takes (those of its image if `back`),
-/// matched by the names in its domain. Empty if no column has such a name, or if the columns are
-/// exactly these, in order.
-/// @throws Error(input) if only some of the names are columns or, with `back`, if other columns
-/// exist
+/// Indices of the columns that are a warp's coordinates (its image's if `back`), found by the names
+/// in its domain. Empty if no column has such a name, or if the columns are exactly the
+/// coordinates, in order.
+/// @throws Error(input) if a name is missing, unless all are and `back` is false; with `back`, also
+/// if there are other columns
 std::vector<std::size_t> coordinates_by_name(const Spec& spec,
                                              const std::vector<std::string>& columns, bool back,
                                              const RunContext& run) {

@@ -319,7 +319,6 @@ class Reporter {
         return item != nullptr && !std::holds_alternative<Report>(*item);
     }
 
-    /// Measure that a key belongs to.
     static const page::Measure& measure_of(const page::Set& set, const std::string& key) {
         return *std::ranges::find(set.measures, key.substr(0, key.find('.')), &page::Measure::name);
     }
@@ -329,8 +328,7 @@ class Reporter {
         return measure.results ? "no result" : fmt::format("not known ({})", measure.left_out);
     }
 
-    /// Checks that a measured set has the key, or that the measure was left out. @throws
-    /// Error(usage)
+    /// Checks that some set has the key, or no results of its measure. @throws Error(usage)
     static void require_known(const Check& check, const std::vector<page::Set>& sets) {
         const std::string& key = check.key;
         std::string hint;

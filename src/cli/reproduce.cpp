@@ -326,7 +326,7 @@ std::uint64_t stream_version_of(const std::string& name) {
     return scramble ? scramble->stream_version : std::max(of(warps::all()), of(generators::all()));
 }
 
-/// Sentence about the first unit whose stream version has changed since; empty if all are the same.
+/// Sentence about the first unit whose stream version is not the provenance's; empty if none.
 std::string changed_rules(const Provenance& meta) {
     std::vector<std::string> units = {find_generator(meta.generator).name};
     for (std::string warp : meta.warps) {

@@ -25,7 +25,6 @@ class ProgressBar {
     void show(double fraction);
     /// Sets the note that is shown in place of the time left.
     void note(const std::string& words) { words_ = words; }
-    /// Erases the bar.
     void clear();
 
   private:

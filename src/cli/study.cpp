@@ -154,7 +154,7 @@ struct SummaryText {
     }
 };
 
-/// Whether the only input is a file: the table of a study that is not to be run.
+/// Whether the command only summarizes an existing table of a study, its only input.
 bool reads_table(const StudyRequest& request) {
     std::error_code none;
     return request.inputs.size() == 1 && (request.wide || request.summary) &&
@@ -330,7 +330,7 @@ class Study {
 int StudyRequest::perform(Session& session) const {
     Ranks& ranks = launched(*this, session.run());
     const bool reads = !ranks.exchange(reads_table(*this) ? "reads" : "").front().empty();
-    if (reads) {  // as rank 0 decides, which alone writes
+    if (reads) {  // rank 0 decides for all, and it alone writes
         if (ranks.rank() == 0) summarize_table(*this, session.run());
         return 0;
     }

@@ -64,7 +64,7 @@ std::vector<std::string> changed_options(const Provenance& from, const Generator
                                          std::string_view typed);
 
 /// The command of a verb as typed, quoted for a shell; without the options in `left_out` and those
-/// that never affect a result. @param seed replaces that of --seed, if given, which may be random
+/// that never affect a result. @param seed if given, replaces that of --seed, which may be random
 std::string command_text(const Arguments& arguments, std::vector<std::string> left_out = {},
                          std::optional<std::uint64_t> seed = {});
 

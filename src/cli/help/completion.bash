@@ -4,7 +4,7 @@ _stipple() {
     for ((i = 1; i <= COMP_CWORD; i++)); do
         word=${COMP_WORDS[i]#[\'\"]}
         ((i < COMP_CWORD)) && word=${word%[\'\"]}
-        # bash parts --option=value and unit:option=value at these
+        # bash splits --option=value and unit:option=value at = and :
         if ((${#words[@]})) && [[ $word == [:=]* || ${COMP_WORDS[i - 1]} == *[:=] ]]; then
             words[-1]+=$word
         else

@@ -75,7 +75,7 @@ Candidates values_of(const Option& option, const std::string& current = {}) {
     return in_list(std::move(kinds), current);
 }
 
-/// Results of the analyzers that a command names, after parts in capitals such as KIND.
+/// Result keys of the analyzers that a command names, without parts up to one in capitals (KIND).
 Candidates keys_in(const std::string& command) {
     Candidates found;
     for (const UnitInfo& unit : units_of("analyzers"))
@@ -132,7 +132,7 @@ Candidates values_of(const CommonOption& common, const std::string& current) {
     return values_of(common.option);
 }
 
-/// Candidates for a verb's arguments that are not units of it: words, or files.
+/// Candidates for a verb's arguments other than its units: words, or files.
 Candidates operands_of(Verb verb, const std::string& current) {
     Candidates found;
     switch (verb) {
@@ -168,7 +168,7 @@ Candidates option_names(Verb verb, const UnitInfo* unit) {
     return found;
 }
 
-/// Candidates for the value of the option `before`; nullopt if it is a flag or no option.
+/// Candidates for the value of the option `before`; nullopt for a flag, and if it is not an option.
 std::optional<Candidates> values_behind(const std::vector<std::string>& words,
                                         const std::string& before, const std::string& current,
                                         Verb verb, const UnitInfo* unit) {

@@ -168,7 +168,7 @@ const std::vector<Topic>& topics() {
 
 std::string coming_from(std::string_view name) {
     std::string word = lower_case(name);
-    word.erase(0, word.rfind('.') + 1);  // qmc.Halton
+    word.erase(0, word.rfind('.') + 1);  // qmc.Halton becomes halton
     const bool is_name = word.size() > 1 && std::isalpha(static_cast<unsigned char>(word[0])) != 0;
     if (!is_name) return {};
     std::string found;

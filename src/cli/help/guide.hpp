@@ -19,7 +19,7 @@ const std::vector<GuidePage>& verb_pages();
 
 struct CompressedText {
     std::string_view bytes;
-    std::size_t size;  ///< of the text
+    std::size_t size;  ///< bytes of the decompressed text
 };
 
 /// All other pages: for each, a byte 1, a line with its name, and its text.
@@ -56,8 +56,8 @@ std::string glossary_entry(std::string_view word);
 /// coming-from; for a package (scipy), its section. Ignores case; empty if nothing is found.
 std::string coming_from(std::string_view name);
 
-/// The section of the guide's page about Python that has a name, such as qmc.QMCEngine, in its code
-/// within sentences, as plain text; empty if none has.
+/// Returns, as plain text, the first section of the guide's page about Python whose inline code has
+/// the name, such as qmc.QMCEngine; empty if there is none.
 std::string python_section(std::string_view name);
 
 /// Page of a verb: heading, command, paragraphs, and "## Examples".

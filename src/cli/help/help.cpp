@@ -155,7 +155,7 @@ std::vector<std::string> facts_of(const UnitInfo& unit) {
     return facts;
 }
 
-/// Adds the exit codes and their meanings, which the topic lists as indented lines.
+/// Adds the exit codes and their meanings, which the topic exit-codes lists as indented lines.
 void add_exit_codes(HelpPage& page) {
     const std::string_view text = std::ranges::find(topics(), "exit-codes", &Topic::name)->text;
     const std::string_view codes = text.substr(text.find("\n    ") + 1);
@@ -166,7 +166,7 @@ void add_exit_codes(HelpPage& page) {
     }
 }
 
-/// Adds commands, and the comment of each beside it.
+/// Adds commands with their comments, indented.
 void add_examples(HelpPage& page, const std::string& examples) {
     page.section("Examples");
     std::string lines = "  " + examples;
@@ -227,8 +227,7 @@ HelpPage page_of_verb(const VerbInfo& info, HelpPage::Style style) {
     return page;
 }
 
-/// Points of a generator with quick options, or their image under warps; nullopt if they cannot be
-/// made so.
+/// Points of a generator with quick options, or their image under warps; nullopt on failure.
 std::optional<PointSet> sample_of(const char* generator, std::uint64_t count, std::size_t dimension,
                                   std::vector<Spec> warps) {
     const Generator& made_by = find_generator(generator);
@@ -346,7 +345,7 @@ std::string help_of_word(const std::string& name) {
     }
     std::string lines = coming_from(name);
     if (found.empty() && lines.empty())
-        lines = coming_from(name.substr(name.rfind(' ') + 1));  // qmc Halton
+        lines = coming_from(name.substr(name.rfind(' ') + 1));  // the last word of "qmc Halton"
     if (!lines.empty()) found += (found.empty() ? "" : "\n") + filled_page(lines, text_columns());
     if (found.empty()) found = filled_page(python_section(name), text_columns());
     if (!found.empty()) return found;

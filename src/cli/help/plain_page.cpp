@@ -39,7 +39,6 @@ std::string_view page_of(std::string_view target) {
                                                                 : std::string_view();
 }
 
-/// Quotes code if it has blanks.
 std::string quoted_code(std::string_view code) {
     return code.find_first_of(" \n") == code.npos ? std::string(code) : fmt::format("'{}'", code);
 }
@@ -121,7 +120,7 @@ class PlainPage {
         prose_.clear();
     }
 
-    /// Adds a line, but never a second empty one, which a picture leaves.
+    /// Adds a line, except an empty line after an empty line, as a removed picture leaves it.
     void add_line(std::string_view line) {
         if (!line.empty() || !out_.ends_with("\n\n")) out_ += fmt::format("{}\n", line);
     }

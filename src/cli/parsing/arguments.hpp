@@ -64,12 +64,11 @@ struct CommonOption {
     std::string fallback;  ///< default as shown in help; may be empty
     Option option;         ///< long name, type, range and help
     Verb verbs;            ///< verbs that accept it
-    /// Parses a text and stores it in the request of one of these verbs. @throws Error(usage)
+    /// Parses a text and stores it in the request of a verb in `verbs`. @throws Error(usage)
     std::function<void(Request&, const CommonOption&, const std::string& text)> store;
     bool repeatable = false;
 };
 
-/// All common options that the verb accepts.
 std::vector<const CommonOption*> options_of(Verb verb);
 
 /// Common option of the verb by name ("-n" or "--count"); nullptr if there is none.

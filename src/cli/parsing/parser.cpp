@@ -195,7 +195,7 @@ void take_spec(const Spec& spec, const UnitInfo& unit, Arguments& arguments) {
     }
 }
 
-/// Moves options before the verb, such as the one of `stipple -q generate halton`, behind it.
+/// Moves options before the verb, such as -q in `stipple -q generate halton`, behind it.
 void put_verb_first(std::vector<std::string>& words) {
     for (std::size_t at = 1; at < words.size(); ++at) {
         const VerbInfo* info = find_verb(words[at]);
@@ -210,7 +210,6 @@ void put_verb_first(std::vector<std::string>& words) {
     }
 }
 
-/// Parses a command line without a verb.
 Arguments parse_without_verb(const std::vector<std::string>& words) {
     Arguments arguments;
     if (words.empty()) return arguments;
@@ -266,7 +265,7 @@ Arguments parse_arguments(int argc, const char* const* argv) {
         }
         const auto word = words.begin() + (named - words.data());
         if (unit == nullptr) {
-            *word = spec.name;  // the message of check_rest() names the unit only
+            *word = spec.name;  // the message of check_rest() then names only the unit
         } else {
             if (arguments.specs.empty()) own = own_options(verb, *unit);
             arguments.unit = unit->name;

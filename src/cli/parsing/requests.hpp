@@ -214,8 +214,7 @@ struct CompletionsRequest : Request {
 };
 
 /// Makes the request of the arguments' verb: parses the texts of its options, and checks their
-/// combination.
-/// @throws Error(usage)
+/// combination. @throws Error(usage)
 std::unique_ptr<Request> request_of(const Arguments& arguments);
 
 /// As request_of(), with the type of the arguments' verb.
