@@ -71,7 +71,7 @@ using Levels = std::vector<std::pair<std::string, std::vector<std::string>>>;
 struct Provenance {
     std::string version;                                       ///< version of stipple
     std::string generator;                                     ///< empty: unknown
-    std::vector<std::pair<std::string, std::string>> options;  ///< as typed on the command line
+    std::vector<std::pair<std::string, std::string>> options;  ///< as on a command line
     std::uint64_t seed = 1;
     std::uint64_t count = 0;
     std::size_t dimension = 0;
@@ -148,8 +148,8 @@ class PointSet {
 
     DomainPtr domain;  ///< the space that the points live on; null: the unit cube
 
-    /// Density of each point, above 0, with respect to the domain's measure; empty if it is the
-    /// domain's own.
+    /// Density of each point, above 0, with respect to the domain's measure; empty if the points
+    /// follow the domain's density.
     std::vector<double> densities;
     Provenance provenance;  ///< empty if unknown
 

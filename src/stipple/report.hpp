@@ -44,7 +44,7 @@ class Report {
     [[nodiscard]] const Item* find(std::string_view dotted_key) const;
     [[nodiscard]] Item* find(std::string_view dotted_key);
 
-    /// The item of this type under a key. @throws Error(usage) if there is none
+    /// The item of the returned type under a key. @throws Error(usage) if there is none
     [[nodiscard]] double number(std::string_view dotted_key) const;
     [[nodiscard]] const std::string& text(std::string_view dotted_key) const;
     [[nodiscard]] const Curve& curve(std::string_view dotted_key) const;
