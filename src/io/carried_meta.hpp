@@ -6,8 +6,8 @@
 //
 //     points.npy.meta.json {"format":"stipple.meta","version":1,"of":"npy","width":2,"meta":{...}}
 //
-// Beware  a sidecar file becomes stale when another program replaces the points; readers leave it
-//         out if the points have another number, except for raw numbers, or other first bytes.
+// Beware  a sidecar file becomes stale when another program replaces the points; readers ignore it
+//         if the file has another number of points (except raw numbers) or other first bytes.
 #pragma once
 
 #include <optional>
@@ -28,7 +28,7 @@ struct CarriedMeta {
     std::vector<std::string> extras = {};  ///< names of the numbers after the coordinates
     Provenance provenance = {};
 
-    /// Whether it is the provenance of points with these numbers in a file with these first bytes.
+    /// Whether it describes a file with these counts of sets, points and numbers, and these bytes.
     [[nodiscard]] bool fits(std::size_t of_sets, std::uint64_t count, std::size_t numbers,
                             std::string_view bytes) const;
 };

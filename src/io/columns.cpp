@@ -13,7 +13,7 @@ namespace {
 
 bool measures_points(const std::string& name) { return name == "pdf" || name == "weight"; }
 
-/// Whether a coordinate name in a header would be read back as such.
+/// Whether a coordinate name in a header would be read back as a name.
 bool is_name(const std::string& name, bool table) {
     return is_word(name) && name != "set" && (table || !measures_points(name));
 }

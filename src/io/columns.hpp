@@ -49,8 +49,8 @@ std::optional<std::vector<std::string>> csv_fields(std::string_view line);
 /// Parses the names in an option's text, a line of CSV. @throws Error(usage)
 std::vector<std::string> parse_names(std::string_view text, std::string_view option);
 
-/// Replaces names that would not be read back from a header by the default name of the column, pdf
-/// and weight only unless `table`. Returns a sentence for each.
+/// Replaces names that would not be read back from a header by the column's default name; pdf and
+/// weight are replaced only if not `table`. Returns a sentence for each replaced name.
 std::vector<std::string> replace_names(std::vector<std::string>& names, bool table);
 
 /// Index of the column with this name or, failing that, with this number counted from 1. `place`
@@ -75,8 +75,7 @@ struct DensityColumns {
 DensityColumns density_columns(const Provenance& provenance);
 
 /// If the last number of each row is a pdf or a weight = 1 / pdf, moves it from the rows to
-/// set.densities.
-/// @throws Error(input) naming the first point with an invalid value
+/// set.densities. @throws Error(input) naming the first point with an invalid value
 void take_densities(PointSet& set);
 
 /// Drops the columns of a table that are not coordinates.

@@ -24,12 +24,12 @@ constexpr auto small_powers_of_10 = [] {
     return powers;
 }();
 
-/// Appends `size` >= 0 with `precision` digits after the point, cut off its shortest text without
-/// an exponent; for any value and precision.
+/// Appends `size` >= 0 as its shortest text without an exponent, cut to `precision` digits after
+/// the point; for any value and precision.
 void append_cut_slowly(std::string& out, double size, int precision) {
     std::array<char, 400> text;  // the longest, 2.2250738585072014e-308, has 327
     char* const begin = text.data();
-    const bool plain = size >= 1e-4 && size < 1e15;  // this text has no exponent, and is faster
+    const bool plain = size >= 1e-4 && size < 1e15;  // fmt's text has no exponent, and is faster
     char* const end =
         plain ? fmt::format_to(begin, FMT_COMPILE("{}"), size)
               : std::to_chars(begin, begin + text.size(), size, std::chars_format::fixed).ptr;
@@ -42,7 +42,7 @@ void append_cut_slowly(std::string& out, double size, int precision) {
     out.append(static_cast<std::size_t>(precision - digits), '0');
 }
 
-/// As append_cut_slowly(); returns false, and appends nothing, if it cannot tell the digits.
+/// As append_cut_slowly(); returns false, and appends nothing, if only that finds the digits.
 bool append_cut_fast(std::string& out, double size, int precision) {
     if (!(size < 0x1p53) || precision > 19) return false;
     const auto bits = std::bit_cast<std::uint64_t>(size);
@@ -60,8 +60,8 @@ bool append_cut_fast(std::string& out, double size, int precision) {
         // The product is below 2^53 * 10^19 < 2^117.
         const Uint128 product = fraction * power;
         digits = static_cast<std::uint64_t>(product >> shift);
-        // Texts that read back to `size` are those within half of 1 / 2^shift. If a multiple of
-        // 10^-precision is among them, and no other, it is the shortest, or ends in zeros.
+        // Numbers within 1 / 2^(shift + 1) of `size` read back to it. If exactly one multiple of
+        // 10^-precision is among them, it is the shortest text, perhaps with final zeros.
         const Uint128 twice_above = 2 * (one - (product & (one - 1)));
         if (fraction != 0 && (one <= power || twice_above == power)) return false;
         if (fraction != 0 && twice_above < power) ++digits;

@@ -10,9 +10,9 @@
 
 namespace stipple::io {
 
-/// Appends the shortest text that reads back to the same double. With a precision, appends that
-/// many digits after the point: those of that text, cut off without an exponent, so that values
-/// below 1 never print as 1, and text that was cut reads back to the same text.
+/// Appends the shortest text that reads back to the same double. With a precision, cuts this text,
+/// written without an exponent, to that many digits after the point: values below 1 never print as
+/// 1, and cut text that is read and cut again stays the same.
 void append_number(std::string& out, double value, std::optional<int> precision = std::nullopt);
 
 /// Text before, between and after the numbers of a row.

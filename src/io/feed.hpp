@@ -37,8 +37,7 @@ class Feed {
     }
 
     /// Reads the next bytes, beginning with the front, and returns how many: fewer than requested
-    /// only at the end.
-    /// @throws Error(io) if the file has changed since it was opened
+    /// only at the end. @throws Error(io) if the file has changed since it was opened
     std::size_t read(std::span<char> bytes);
 
     /// Skips up to `count` bytes and returns how many were skipped; nullopt if the input cannot

@@ -25,8 +25,7 @@ std::vector<PointSet> read_sets(std::string_view bytes, const std::string& path,
                                 const Format* format = nullptr);
 
 /// Reads all sets of a file. If `format` is null, the extension or the bytes decide. Messages name
-/// options.source, or `path` if that is "-".
-/// @throws Error(input), Error(io), Error(usage)
+/// options.source, or `path` if that is "-". @throws Error(input), Error(io), Error(usage)
 std::vector<PointSet> read_points(const std::string& path, const ReadOptions& options,
                                   const RunContext& run, const Format* format = nullptr);
 

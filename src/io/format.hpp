@@ -49,7 +49,7 @@ class Counts {
 /// Parameters of a writer, known before the first row.
 struct Layout {
     std::size_t dimension = 0;             ///< coordinates per point
-    std::vector<std::string> extras = {};  ///< names of the numbers after them ("pdf")
+    std::vector<std::string> extras = {};  ///< names of the numbers after the coordinates ("pdf")
     Counts counts = {};                    ///< points of each set
     bool header = true;                    ///< column names, in CSV
     bool meta = false;                     ///< provenance in `# ` lines
@@ -92,7 +92,7 @@ struct ReadOptions {
     bool gaps = false;           ///< text: reads empty fields, NA and nan as NaN
     std::string strengths = {};  ///< weight column, read after the coordinates
     bool meta_beside = false;    ///< reads FILE.meta.json, too, if there is one
-    const io::CarriedMeta* beside = nullptr;  ///< its contents, for readers of formats
+    const io::CarriedMeta* beside = nullptr;  ///< contents of FILE.meta.json; set for formats
 };
 
 struct FormatTraits {

@@ -55,7 +55,6 @@ void append_text(std::string& record, const std::string& text) {
     record.append(reinterpret_cast<const char*>(&size), sizeof size).append(text);
 }
 
-/// Buffer for a file name.
 using NameBuffer = std::array<char, PATH_MAX>;
 
 /// Reads a text into the buffer, without allocating; returns nullopt at the end.
@@ -267,8 +266,8 @@ void Outputs::commit() {
     std::uint64_t count = 0;
     std::vector<std::string> some;  // names of files already in place
     some.reserve(named);
-    // Calls put() to put one file in place. Returns false if put() returns no path: no files
-    // remain.
+    // Calls put() to put one file in place. Returns false if put() returns no path, because no file
+    // is left to put in place.
     const auto place = [&](const auto& put) {
         try {
             std::optional<std::string> path = put();

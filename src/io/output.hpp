@@ -27,8 +27,7 @@ namespace stipple::io {
 class Output {
   public:
     /// If a signal interrupts a write (handler installed without SA_RESTART) and `stop` was
-    /// requested, the write is abandoned.
-    /// @throws Error(io) if the file cannot be created
+    /// requested, the write is abandoned. @throws Error(io) if the file cannot be created
     explicit Output(std::string path, std::stop_token stop = {});
     /// Function that receives the bytes instead of a file; it returns false to stop the output.
     using Sink = std::function<bool(std::string_view bytes)>;
@@ -39,8 +38,7 @@ class Output {
     ~Output();
 
     /// Writes all bytes. Returns false if the reader closed the pipe (SIGPIPE must be ignored), or
-    /// the sink stopped.
-    /// @throws Error(io) naming the target and the reason; Error(cancelled)
+    /// the sink stopped. @throws Error(io) naming the target and the reason; Error(cancelled)
     bool write(std::string_view bytes);
 
     /// Ends writing. A file with a temporary name is closed, to save its descriptor. @throws

@@ -172,7 +172,7 @@ class RawStream final : public PointStream {
     std::unique_ptr<Feed> feed_;
     RawShape shape_;
     std::string source_;
-    std::string hint_;  ///< for a number of points that FILE.meta.json states
+    std::string hint_;  ///< for messages, if FILE.meta.json states the number of points
     Columns columns_;
     Provenance provenance_;
     std::size_t set_ = 0;
@@ -182,7 +182,7 @@ class RawStream final : public PointStream {
     std::string bytes_;
 };
 
-/// Names of the coordinates, then those of columns of densities.
+/// Names of the coordinates, and of the density column, if there is one.
 std::vector<std::string> names_of(const Provenance& meta, std::size_t width) {
     const bool measured = !meta.density_column.empty();
     auto names = meta.columns.empty() ? coordinate_names(width - (measured ? 1 : 0)) : meta.columns;
@@ -257,8 +257,8 @@ class JoinedStream final : public PointStream {
                   : fmt::format("no more files, since all {} shards are there", of));
     }
 
-    /// Numbers the words of the next file together with those of the files before: known words keep
-    /// their numbers, others follow. Afterwards `meta` has the words of all files.
+    /// Maps the level names of the next file to indices: known names keep theirs, others get the
+    /// next ones. Afterwards `meta` has the level names of all files.
     void join_words(Provenance& meta) {
         const auto names = names_of(meta, dimension());
         numbers_.assign(dimension(), {});
@@ -356,8 +356,8 @@ class JoinedStream final : public PointStream {
     RunContext run_;
     std::size_t at_;
     std::unique_ptr<PointStream> part_;
-    Provenance whole_;  ///< provenance of the first file, with the words of all files so far
-    std::vector<std::vector<double>> numbers_;  ///< new numbers of this file's words, by column
+    Provenance whole_;  ///< provenance of the first file, with the level names of all so far
+    std::vector<std::vector<double>> numbers_;  ///< joint indices of this file's level names
     std::uint64_t count_ = 0;
     bool begun_ = false;
     bool ended_ = false;
@@ -471,7 +471,7 @@ std::unique_ptr<PointStream> open_points(const std::string& path, const ReadOpti
 
 namespace {
 
-/// The file's provenance beside it, if wanted. A file of this name that holds none is noted.
+/// Provenance in the file's sidecar, if wanted. Warns if the sidecar holds no provenance.
 std::optional<CarriedMeta> usable_beside(const std::string& path, const ReadOptions& options,
                                          const RunContext& run) {
     try {

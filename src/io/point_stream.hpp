@@ -53,8 +53,7 @@ class PointStream {
     virtual std::vector<PointSet> read_all(const RunContext& run);
 
     /// Reads the next points of the set into `rows` and returns how many: fewer than fit only at
-    /// the end of the set.
-    /// @throws Error(input), Error(io), Error(cancelled)
+    /// the end of the set. @throws Error(input), Error(io), Error(cancelled)
     virtual std::size_t read(std::span<double> rows) = 0;
 
     /// Skips up to `count` points of the set and returns how many were skipped. In binary files,
@@ -85,16 +84,16 @@ struct JoinedFile {
 };
 
 /// Checks that the points of a file can follow those of the first.
-/// @throws Error(input) for another number of coordinates, another domain, or, if both files have
-/// them, other names of columns or other words in a column
+/// @throws Error(input) for another number of coordinates or another domain, and for other column
+/// names or level names if both files have these
 void require_alike(const JoinedFile& file, const JoinedFile& first);
 
 /// Concatenates files of one set each into one set; each file is opened when it is needed. If the
-/// files are all shards of one set, the provenance is that of the whole set; otherwise it holds only
-/// what they have in common. Words of later files that the first does not have get the next numbers.
+/// files are all shards of one set, the provenance is that of the whole set; otherwise it holds
+/// only what they have in common. New level names of later files get the next indices.
 /// @param first index of the file to begin with
-/// @throws Error(input) as require_alike(), except for other words; for a file with several sets;
-/// and for shards of one set that are out of order
+/// @throws Error(input) as require_alike(), but accepts other level names; for a file with several
+/// sets; and for shards of one set that are out of order
 using Opener = std::function<std::unique_ptr<PointStream>(const std::string& path)>;
 std::unique_ptr<PointStream> join_points(std::vector<std::string> paths, Opener open,
                                          const RunContext& run, std::size_t first = 0);

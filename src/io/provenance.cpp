@@ -144,7 +144,7 @@ bool take(std::string_view key, const Json& value, Provenance& to) {
 
 Json to_json(const Provenance& provenance) {
     Json meta{{"tool", "stipple"}, {"version", provenance.version}};
-    // Without a generator, default values are no facts.
+    // Without a generator, fields with default values are unknown, and become null.
     const auto fact = [&, usual = Provenance()](auto Provenance::*field) {
         const bool known = !provenance.generator.empty() || provenance.*field != usual.*field;
         return known ? Json(provenance.*field) : Json();

@@ -29,8 +29,8 @@ std::string to_comment_lines(const Provenance& provenance, std::string_view begi
 /// Parses a line "key: value" of to_comment_lines(), without "# ". Returns false for other lines.
 bool take_comment_line(std::string_view line, Provenance& provenance);
 
-/// Notes that a file's first set has another number of points than its provenance states, as if it
-/// had been cut off. An edited file has, too: so it is no error.
+/// Warns if a file's first set has another number of points than its provenance states. It may have
+/// been cut off, but also edited, so this is no error.
 void note_count(const std::string& source, const Provenance& stated, std::uint64_t found,
                 const RunContext& run);
 

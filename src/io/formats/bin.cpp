@@ -36,7 +36,7 @@ std::unique_ptr<PointStream> stream(std::unique_ptr<Feed>& feed, const ReadOptio
         shape.count = options.beside->provenance.count;
     }
     ReadOptions inner = options;
-    inner.dimension.reset();  // it is the row's width here, before columns are picked
+    inner.dimension.reset();  // here it is the row's width, before columns are picked
     return stream_raw(std::move(feed), shape, inner);
 }
 

@@ -66,8 +66,8 @@ Field field_between(const char* first, const char* last) {
     return {{first, static_cast<std::size_t>(last - first)}, at};
 }
 
-/// A column's name as UTF-8: bytes that are not valid UTF-8 are read as Latin-1, which spreadsheets
-/// write.
+/// A column's name as UTF-8; text that is not valid UTF-8 is read as Latin-1, as spreadsheets write
+/// it.
 std::string name_in(std::string_view text) {
     std::string name(text);
     if (utf8_of(code_points(text)) == name) return name;
@@ -165,7 +165,6 @@ std::string trouble_with(const Field& field, bool decimal_comma) {
            "; expected a finite number";
 }
 
-/// Parser of rows.
 class RowReader {
   public:
     RowReader(const SourceText& text, const Columns& columns, const Dialect& dialect)
@@ -382,8 +381,8 @@ std::string without_quoted(std::string_view line) {
     return bare;
 }
 
-/// Guesses the separator from a line. Names in a header may contain blanks, commas and semicolons if
-/// tabs separate them, and no tab is beside one of these, as where columns are lined up.
+/// Guesses the separator from a line. If tabs separate the names of a header, these may contain
+/// blanks, commas and semicolons. Tabs beside commas or semicolons only align columns.
 char separator_of(std::string_view line) {
     if (has_tabs_and_commas(line)) return '\t';
     const std::string bare = without_quoted(line);
@@ -507,7 +506,7 @@ struct TableHead {
     bool names = false;          ///< the first line is a header
     bool row_names = false;      ///< the first column has no name and holds row names
     std::string counter = {};    ///< name of a coordinate column that numbers the rows
-    std::string measure = {};    ///< name of the column pdf or weight if others are named
+    std::string measure = {};    ///< column pdf or weight, if the coordinates have names
     const char* body = nullptr;  ///< start of the rows
     bool words_to_find = false;  ///< the first row has words that are not known levels
     /// Sentences on replaced names.

@@ -22,7 +22,6 @@ namespace stipple::io {
 /// Writes the text above, without a closing brace. Extras add "columns":["x","y","pdf"].
 std::string json_head(const Layout& layout, const Counts& counts);
 
-/// Contents of the head.
 struct JsonHead {
     Provenance provenance = {};
     std::vector<std::string> columns = {};  ///< empty: not given

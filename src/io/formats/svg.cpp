@@ -117,7 +117,6 @@ std::string without_markup(std::string text) {
     return text;
 }
 
-/// Title of the picture.
 std::string title_of(const Layout& layout) {
     std::string title = fmt::format("{} points", layout.counts[0]);
     if (!layout.provenance.generator.empty()) title = layout.provenance.generator + ", " + title;
