@@ -15,7 +15,6 @@
 
 namespace stipple {
 
-/// The product of a box's extents.
 double volume_of(const Box& box);
 
 /// An approximate number: the true value differs from `value` by at most `error`; error 0 means
@@ -52,7 +51,7 @@ struct Support {
     bool whole = true;   ///< the part is the whole domain, except for a set of measure 0
     bool finite = true;  ///< the measure of the part is finite, though perhaps unknown
 
-    /// density() is 0 only in gaps, and never (up to rounding) at a point drawn from the density.
+    /// Whether density() is 0 exactly in gaps: above 0, up to rounding, at points drawn from it.
     bool by_density = false;
 
     /// Measure of the part, if known.
@@ -95,7 +94,6 @@ class Domain {
     /// Name of the domain in messages.
     [[nodiscard]] virtual std::string title() const { return spec(); }
 
-    /// Number of coordinates of a point.
     [[nodiscard]] virtual std::size_t dimension() const = 0;
 
     /// Length, area, volume, ...; infinite for a whole line, plane or space.
@@ -140,8 +138,8 @@ class Domain {
     [[nodiscard]] virtual std::vector<std::string> cube_axes() const = 0;
 
     /// Probability of a box of the domain's own space, for points that follow density(); nullopt if
-    /// unknown. The box may extend beyond the domain, even to infinity. Mixtures need it: no map to
-    /// the cube preserves their probability, so their points are counted in boxes of their own
+    /// unknown. The box may extend beyond the domain, even to infinity. Needed for mixtures: no map
+    /// to the cube preserves their probability, so their points are counted in boxes of their own
     /// space, or in zones of the sphere.
     [[nodiscard]] virtual std::optional<Estimate> box_mass(const Box& /*box*/) const {
         return std::nullopt;

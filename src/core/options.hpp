@@ -23,9 +23,7 @@ namespace stipple {
 
 /// One of a fixed set of words.
 struct Choice {};
-/// Any text.
 struct Text {};
-/// A file name.
 struct Path {};
 /// Numbers, separated by commas.
 struct Numbers {};
@@ -40,7 +38,6 @@ struct Table : std::vector<std::vector<double>> {
     using vector::vector;
 };
 
-/// Value of an option.
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>, Table,
                            std::vector<std::int64_t>>;
 

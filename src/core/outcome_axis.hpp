@@ -9,7 +9,6 @@
 
 namespace stipple {
 
-/// Maps a coordinate u in [0, 1] to the outcomes of a discrete distribution.
 struct OutcomeAxis {
     /// Outcome for u, which never decreases with u; empty if the axis is continuous.
     std::function<double(double u)> outcome = {};

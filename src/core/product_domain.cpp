@@ -26,7 +26,7 @@ void place_moments(const Moments& part, std::span<const std::size_t> at, Moments
 class ProductDomain final : public Domain {
   public:
     explicit ProductDomain(std::vector<Factor> factors) : factors_(std::move(factors)) {
-        std::vector<std::pair<std::size_t, std::size_t>> order;  // coordinate; axis that uses it
+        std::vector<std::pair<std::size_t, std::size_t>> order;  // (coordinate, axis that uses it)
         for (const auto& [domain, coordinates] : factors_)
             for (std::size_t j = 0; j < domain->cube_dimension(); ++j)
                 order.emplace_back(coordinates[std::min(j, coordinates.size() - 1)], order.size());

@@ -142,8 +142,8 @@ std::string format_spec(std::string_view name, const Values& values, const Schem
     for (const Option& option : schema.options()) {
         const auto& item = values.find(option.name);
         const std::string text = format_value(item.value);
-        // Compared as text: -0 equals 0, but is a different value. An optional option that is given
-        // says something, whatever its value.
+        // Compared as text: -0 equals 0, but is a different value. Optional options that are given
+        // are always written.
         if (option.optional ? !item.given : text == format_value(option.fallback)) continue;
         add_setting(spec, option.name, text, std::exchange(first, false));
     }

@@ -33,7 +33,6 @@ std::string format_number(double value);
 /// Formats a size: 1536 -> "1.5 KiB".
 std::string format_bytes(double bytes);
 
-/// Replaces every `from` by `to`.
 void replace_all(std::string& text, std::string_view from, std::string_view to);
 
 /// Parts between separators; "a,b" -> {"a", "b"}, "" -> {}.
@@ -44,7 +43,7 @@ std::vector<std::string_view> split_outside(std::string_view brackets, std::stri
                                             std::string_view separator);
 
 std::string join(std::span<const std::string> words, std::string_view between);
-/// Numbers as format_number() writes them.
+/// Joins numbers, written as by format_number().
 std::string join(std::span<const double> numbers, std::string_view between);
 
 /// Whole numbers in a list of type List.
@@ -59,13 +58,11 @@ requires std::integral<typename List::value_type> std::string join(const List& n
     return text;
 }
 
-/// Capitalizes the first letter.
 std::string capitalised(std::string text);
 
 /// Converts ASCII capitals to lower case.
 std::string lower_case(std::string_view text);
 
-/// Removes white space at both ends.
 std::string_view trim(std::string_view text);
 
 /// Returns up to three words of `known` of which `word` may be a misspelling; case is ignored.

@@ -21,7 +21,6 @@ namespace stipple {
 
 inline constexpr std::string_view npy_magic = "\x93NUMPY";
 
-/// Contents of a header.
 struct NpyHeader {
     RawType type = {};
     bool columns_first = false;           ///< column-major order: the first index varies fastest
