@@ -187,7 +187,7 @@ std::vector<LegendEntry> legend_of(const Chart& chart, std::size_t number, const
     return entries;
 }
 
-/// Drops positions too close to be distinguished: in each run along x of half a unit, keeps the
+/// Drops positions too close to be distinguished: of those within half a unit along x, keeps the
 /// first, lowest, highest and last.
 std::vector<Position> thinned(const std::vector<Position>& vertices) {
     if (vertices.size() < 4000) return vertices;

@@ -74,8 +74,8 @@ struct ChartPanel {
     std::vector<double> rug = {};  ///< values marked by short lines at the bottom
     bool log_x = false;
     bool log_y = false;
-    std::size_t values = 0;    ///< number of a histogram's values on a logarithmic axis or off it
-    std::size_t off_axis = 0;  ///< how many of them are 0 or less
+    std::size_t values = 0;    ///< number of a histogram's values, those off the axis included
+    std::size_t off_axis = 0;  ///< number of values of 0 or less
     bool whole_x = false;
     bool from_zero = false;  ///< whether the y axis starts at 0
     double reach_y =
@@ -116,7 +116,6 @@ struct TitledDrawing {
 TitledDrawing titled_drawing(const std::string& title, const std::string& subtitle,
                              const PictureStyle& style, double usual_width);
 
-/// An entry of a legend.
 struct LegendEntry {
     enum class Kind { line, box, disk };
     Kind kind = Kind::line;
@@ -159,22 +158,21 @@ double legend_height(const std::vector<LegendEntry>& entries, double width);
 void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Position top_left,
                  double width, const Theme& theme);
 
-/// Histogram with `bins` equal bins over [low, high]; heights are fractions divided by the bin
-/// width. If `log`, bins are equal in logarithms, and so are the widths.
+/// Histogram with `bins` equal bins over [low, high]; heights are fractions of the values per bin
+/// width. If `log`, bins and their widths are equal in logarithms.
 Bars histogram_of(std::span<const double> values, double low, double high, std::size_t bins,
                   bool log = false);
 
-/// Removes values of 0 or less from the sets of a histogram on a logarithmic axis, and counts them in
-/// the panel. Returns a range for the other values.
-/// @throws Error(input) if there are no others
+/// Removes values of 0 or less from the sets of a histogram on a logarithmic axis, and counts them
+/// in the panel. Returns a range for the other values. @throws Error(input) if there are no others
 std::pair<double, double> keep_positive(std::vector<std::vector<double>>& sets, ChartPanel& panel);
 
 /// Whether all values are whole, and so small that halves between them are exact.
 bool are_whole(std::span<const double> values);
 
-/// Histogram of whole numbers from `low` to `high`, with edges between: one bin for each number or,
-/// if there are more than `most` and more than 20, bins of equally many, except for the last, which
-/// may have fewer; if `log`, these are about equal in logarithms instead.
+/// Histogram of the whole numbers from `low` to `high`, with edges halfway between them: one bin
+/// for each number. If there are more than `most` numbers and more than 20, bins have equally many
+/// of them (the last may have fewer) or, if `log`, are about equal in logarithms.
 Bars whole_histogram(std::span<const double> values, double low, double high, std::size_t most,
                      bool log = false);
 

@@ -238,7 +238,7 @@ Drawing fitted(PictureStyle& style, const Draw& draw) {
     constexpr int most = 12;
     const PictureStyle asked = style;
     const bool requested = asked.width > 0 || asked.height > 0;
-    // first trial where only texts overlap
+    // First trial in which only texts overlap.
     std::optional<std::pair<Drawing, PictureStyle>> crowded;
     for (int round = 0;; ++round) {
         Trial trial(draw, style);

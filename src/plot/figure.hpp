@@ -18,7 +18,7 @@ struct Frame {
     std::function<Drawing(const PictureStyle&, bool last_in_row)> draw;
     std::function<std::string(const TextRoom&)> write;
     std::size_t panels = 1;  ///< number of panels that can have a letter
-    bool bar = false;        ///< the last one in a row is wider, for a colour bar
+    bool bar = false;        ///< the last frame in a row is wider, for a colour bar
 };
 
 /// Draws with smaller and smaller scales, which leave more room, until the picture has the

@@ -37,7 +37,6 @@ struct WorstBoxes {
     std::optional<AnchoredBox> open;
     std::optional<AnchoredBox> closed;
 
-    /// The star discrepancy.
     [[nodiscard]] double star() const;
 };
 

@@ -33,7 +33,7 @@ std::size_t points_of(const PointsPicture& picture) {
     return sum;
 }
 
-/// The point at a, b, c in [0, 1] between the ends of the box's sides.
+/// The point at the fractions a, b, c of the box's sides.
 std::array<double, 3> corner(const Box& box, double a, double b, double c) {
     return {box.low[0] + a * box.extent(0), box.low[1] + b * box.extent(1),
             box.low[2] + c * box.extent(2)};
@@ -120,7 +120,6 @@ class PointMarks {
                static_cast<double>(points_of(picture_)) >= density_share * width * height;
     }
 
-    /// Draws a disk for each point.
     void disks(Drawing& drawing, const Area& area, const Place& place) const {
         const double side = std::max(area.width, area.height);
         const double unit = side / 1000;

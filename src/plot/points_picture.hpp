@@ -23,20 +23,19 @@
 namespace stipple::plot {
 
 inline constexpr std::size_t most_pair_coordinates = 8;
-inline constexpr double density_share = 0.75;  ///< minimum of points per square unit for a density
+inline constexpr double density_share = 0.75;  ///< points per square unit that need a density
 
 /// Limit for the ratio of a box's sides. Beyond it, coordinates are assumed to have different units
 /// and are scaled separately.
 inline constexpr double most_unlike = 20;
 
-/// Marks for points.
 enum class Marking { automatic, disks, density };
 
 /// A box drawn over the points, in coordinates from 0 to 1 relative to the box around the first
 /// set's domain. Where low > high, it wraps around from 1 to 0.
 struct MarkedBox {
-    std::string kind;        ///< class in a page's style sheet
-    std::string label = {};  ///< description
+    std::string kind;  ///< class in a page's style sheet
+    std::string label = {};
     std::vector<double> low = {};
     std::vector<double> high = {};
     bool closed = true;  ///< whether drawn with a solid line; false: dashed

@@ -263,7 +263,7 @@ std::vector<Guide> references(Measurements ms, const CurveKey& curve) {
              .reached = true}};
 }
 
-/// Turns frequencies of small integers into bars centred on them.
+/// Turns a curve of frequencies of small integers into bars centred on these integers.
 void make_bars(ChartPanel& panel) {
     for (Series& series : panel.series) {
         const auto filled = [](double y) { return y > 0; };
@@ -303,7 +303,7 @@ void make_power(ChartPanel& panel, Measurements ms, const CurveKey& curve) {
 }
 
 /// Sets up the panel of pair correlation. A single measurement gets a band of two standard
-/// deviations, namely of the mean over as many sets of uniform points.
+/// deviations: those of the mean over as many sets of uniform points.
 void make_pair_correlation(ChartPanel& panel, Measurements ms, const CurveKey& curve) {
     panel.y_name = "pair correlation g";
     panel.guides = {{.name = ms.size() > 1 ? "uniform points" : "", .y = {1}}};

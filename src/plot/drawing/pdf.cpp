@@ -96,7 +96,7 @@ Outline stroke_outline(std::vector<Position> stroke, double radius) {
     return outline;
 }
 
-/// Bounding box.
+/// Bounding box of glyphs, in font units.
 struct Extent {
     int left = 0, low = 0, right = 0, high = 0;
 };
