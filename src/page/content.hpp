@@ -110,7 +110,6 @@ struct Known {
     [[nodiscard]] double most() const { return upper + 2 * error; }
 };
 
-/// A row of the comparison.
 struct Row {
     Key key;
     std::vector<std::optional<Known>> values = {};  ///< one per set

@@ -94,7 +94,7 @@ std::string boxes_figure(const char* kind, const std::string& drawing, const Set
     return figure(kind, drawing + box_legend(boxes, projections), caption + ".");
 }
 
-/// Smallest odd side of square blocks of which at most `most` cover `rows` rows.
+/// Smallest odd side of blocks such that at most `most` blocks cover `rows` rows.
 std::size_t block_side(std::size_t rows, std::size_t most) {
     std::size_t block = 1;
     while ((rows + block - 1) / block > most) block += 2;

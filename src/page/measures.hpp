@@ -25,7 +25,7 @@ struct Input {
     /// command can read them.
     std::string words;
     bool bounds = false;  ///< whether --bounds can be appended
-    /// Appended to commands: " # the third of its results"; usually empty
+    /// Appended to commands, such as "  # result 2 of the array"; usually empty.
     std::string remark = {};
 };
 
