@@ -25,10 +25,10 @@ class ReportAverage {
     [[nodiscard]] std::size_t count() const { return count_; }
     [[nodiscard]] const Report& mean() const { return mean_; }
 
-    /// Standard errors of the entries of `mean`, under the same names; `mean` is this mean, from
-    /// which the analyzer may have removed entries. Omits entries without a meaningful error: exact
-    /// values, probabilities, errors, and results derived from the mean, such as an anisotropy.
-    /// Empty for fewer than two reports.
+    /// Standard errors of the entries of `mean`, under the same names; `mean` is the result of
+    /// mean(), perhaps without entries that the analyzer removed. Omits entries without a
+    /// meaningful error: exact values, probabilities, errors, and results derived from the mean,
+    /// such as an anisotropy. Empty for fewer than two reports.
     [[nodiscard]] Report standard_error(const Report& mean) const;
 
   private:

@@ -121,7 +121,6 @@ Kind kind_of(std::string name, std::string verb, const std::vector<Unit>& units)
     return kind;
 }
 
-// Verbs of the kinds.
 constexpr const char* generators_verb = "generate";
 constexpr const char* warps_verb = "warp";
 constexpr const char* analyzers_verb = "analyze";

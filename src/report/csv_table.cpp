@@ -49,7 +49,6 @@ struct Lists {
     std::vector<Cells> rows = {};  ///< cells of each entry, if the lists are curves
 };
 
-/// The cells of one measurement.
 class MeasurementCells {
   public:
     explicit MeasurementCells(const Measurement& m)

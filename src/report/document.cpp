@@ -61,7 +61,6 @@ std::string shortened(const Report::Curve& curve) {
     return text;
 }
 
-/// Unit of an item of the report.
 std::string unit_of(const Report& report, const Report::Item* item) {
     for (const auto& [name, value, unit] : report.entries()) {
         if (&value == item) return unit;
@@ -110,7 +109,7 @@ std::string tables_of(const Report& report) {
     return text;
 }
 
-/// The analyzer, and the points that it measured.
+/// First line of a text: the analyzer, and the points that it measured.
 std::string head_of(const Measurement& m) {
     const std::string most = m.largest_count > 0 ? fmt::format(" to {}", m.largest_count) : "";
     const std::string of = m.columns.empty() ? "" : ": " + join(m.columns, ", ");
@@ -145,7 +144,6 @@ std::string results_of(const Measurement& m, const TextStyle& style = {}) {
 
 constexpr const char* expected_json = "expected the JSON of 'stipple analyze'";
 
-/// Whether a value is a number or null.
 bool is_number(const Json& value) { return value.is_number() || value.is_null(); }
 
 double number_of(const Json& value) {

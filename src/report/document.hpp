@@ -24,7 +24,7 @@ struct Measurement {
     std::optional<std::size_t> set = {};  ///< number of the set, if its file has several
     std::size_t sets = 1;                 ///< number of sets that were averaged
     std::uint64_t count = 0;  ///< number of points; for a mean over different sizes, the smallest
-    std::uint64_t largest_count = 0;  ///< for such a mean the largest number of points; else 0
+    std::uint64_t largest_count = 0;  ///< largest count in a mean over different sizes; else 0
     std::size_t dimension = 0;
     std::string domain;
     std::vector<std::string> columns = {};  ///< names of the coordinates; may be empty

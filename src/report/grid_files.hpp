@@ -19,7 +19,7 @@ struct PowerPicture {
     std::string scale = "ratio";  ///< scale of grey: ratio, linear or log
     int bits = 8;                 ///< bits per pixel: 8 or 16
     std::int64_t slice = 0;       ///< plane of a cube to draw, by its frequency f_2
-    double differences = 0;       ///< range in mean distances; 0: the picture is a spectrum
+    double differences = 0;       ///< half-width of pair differences in mean distances; 0: spectrum
 };
 
 /// A power spectrum as a grey PNG picture, one pixel per frequency. The last row of the grid is at

@@ -45,7 +45,7 @@ int exponent_of(double x, int digits) {
     return std::stoi(text.substr(text.find('e') + 1));
 }
 
-/// value / 10^exponent, also where the power is no double.
+/// value / 10^exponent, even if the power of ten is beyond the range of double.
 double shifted(double value, int exponent) {
     const int half = exponent / 2;
     return value / std::pow(10.0, half) / std::pow(10.0, exponent - half);

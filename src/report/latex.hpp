@@ -33,9 +33,9 @@ struct LatexTable {
 };
 
 /// A table for each analyzer, with a row for each measurement, and a column for each number and
-/// each entry of short lists. Analyzers with more than 6 of these have tables with a row for each
-/// group of numbers, such as an input of a sensitivity analysis, and each entry of lists. Means
-/// show their standard errors, and numbers with an interval its ends.
+/// each entry of short lists. Analyzers with more than 6 such columns have tables with a row for
+/// each group of numbers, such as an input of a sensitivity analysis, and each entry of lists.
+/// Means show their standard errors; numbers with an interval show its ends.
 std::string to_latex(std::span<const Measurement> measurements);
 
 }  // namespace stipple
