@@ -168,7 +168,7 @@ class Statements {
             row_[b] = numbers[1];
             return;
         }
-        // Like WarpChain, places them side by side where the first of the two coordinates was.
+        // Like WarpChain, places the image's numbers side by side where the first coordinate was.
         row_.erase(row_.begin() + static_cast<std::ptrdiff_t>(std::max(a, b)));
         row_.erase(row_.begin() + static_cast<std::ptrdiff_t>(std::min(a, b)));
         row_.insert(row_.begin() + static_cast<std::ptrdiff_t>(a > b ? a - 1 : a), numbers.begin(),
@@ -258,7 +258,7 @@ std::string function_name(std::string name, const std::string& generator) {
     return name;
 }
 
-/// Whether a text has this word.
+/// Whether a text has this word, not just as a part of another name.
 bool has_word(std::string_view text, std::string_view word) {
     for (auto at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
         const std::size_t end = at + word.size();
@@ -369,7 +369,7 @@ std::string emitted(SetsToMake job, Language language, std::string name, const R
         fail(ErrorKind::usage, "--count: {} is beyond the 32 bits of an index in GLSL and HLSL",
              plan.count);
     const char* const libraries[] = {library_c(), library_glsl(), library_glsl(), library_python()};
-    const std::string mark = "\x01";  // for the name, to see the code's own names
+    const std::string mark = "\x01";  // placeholder of the name, to find the code's own names
     Template code(libraries[static_cast<std::size_t>(language)], mark);
     if (language == Language::python) code.gap = "\n\n";
     Words words = words_of(job, plan, language, quiet);

@@ -84,7 +84,7 @@ void Template::control(std::string_view line, const Words& words) {
 
 std::string Template::filled(std::string_view part, const Words& words) {
     std::string out;
-    std::vector<bool> kept;  // whether lines are kept, for each %if around
+    std::vector<bool> kept;  // for each enclosing %if, whether its lines are kept
     for (std::string_view rest = parts_.find(part)->second; !rest.empty();) {
         std::string_view line = take(rest, '\n');
         const bool here = std::ranges::all_of(kept, [](bool keep) { return keep; });

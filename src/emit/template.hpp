@@ -39,7 +39,7 @@ class Template {
     /// Parts so far, with blank lines between them.
     [[nodiscard]] const std::string& text() const { return text_; }
 
-    /// A part alone.
+    /// Returns the text of a part; appends only the parts that it needs.
     [[nodiscard]] std::string filled(std::string_view part, const Words& words);
 
     /// Whether a line has used the key.
