@@ -31,7 +31,7 @@ py::object arrays_of(std::vector<PointSet> sets);
 /// Converts JSON to dictionaries, lists, numbers and texts.
 py::object object_of(const nlohmann::ordered_json& value);
 
-/// The report of which this is the dictionary.
+/// Converts a dictionary made by dict_of() back to a report.
 Report report_of(const py::dict& values);
 
 /// Converts a report to a dictionary of flags, numbers, texts, dictionaries and arrays: curves

@@ -52,8 +52,8 @@ namespace {
 
 using Given = std::tuple<Array, std::string, std::string>;  ///< rows, domain, provenance as JSON
 
-/// A set with its previous provenance. That of a table is the provenance of its inputs. Shows notes
-/// on names of columns that are replaced.
+/// Returns a set with its provenance or, for a table, the provenance and domain of its inputs.
+/// Shows notes on column names that are replaced.
 PointSet set_of(const Given& given, bool table = false) {
     const auto& [rows, domain, meta] = given;
     PointSet points = points_of(rows, table ? "unit-cube" : domain);
@@ -164,8 +164,8 @@ std::string domain_of_columns(const std::string& domain, std::size_t dimension,
     return filled_up(std::move(kept), columns.size())->spec();
 }
 
-/// The names of a domain's coordinates, None where it has none, and their levels. A factor that is
-/// the whole domain may have more or fewer coordinates than `dimension`.
+/// The names of a domain's coordinates, None for those without a name, and their levels. A factor
+/// that is the whole domain may have more or fewer coordinates than `dimension`.
 py::tuple names_of_domain(const std::string& text, std::size_t dimension) {
     std::vector<std::optional<std::string>> names(dimension);
     py::dict levels;

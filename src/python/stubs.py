@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Writes the type stub of the package, __init__.pyi: calls with the options of each unit, from the
-records of the units, and calls of any unit with the options of all; all else has its types in the
-sources. Usage: stubs.py FOLDER, where FOLDER is
-the package."""
+"""Writes the package's type stub, __init__.pyi, from the records of the units: overloads for each unit
+with its options, and for any unit with the options of all units. All other types are in the sources.
+Usage: stubs.py FOLDER, where FOLDER is the package."""
 
 import ast
 import keyword
@@ -39,7 +38,7 @@ from .calls import PointsLike, Sequence
 RUN = "threads: Whole = 0, max_memory: Number = 0, progress: Progress = None"
 MADE = ("n: Whole | None = None, d: Whole | None = None, *, {}seed: Whole = 1, start: Whole = 0, bounds: Bounds = None, "
         "warp: Units | None = None, parameters: Parameters = None")
-# What generate() returns, by arguments: one set, then several, then unknown ones.
+# Return types of generate() by arguments; RESULTS has those for one set, then for several.
 KINDS = [("return_meta: Literal[False] = False, as_frame: Literal[False] = False", "Floats"),
          ("return_meta: Literal[True], as_frame: Literal[False] = False", "Points"),
          ("return_meta: bool = False, as_frame: Literal[True, 'pandas']", "pandas.DataFrame"),

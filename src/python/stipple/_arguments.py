@@ -52,7 +52,7 @@ def refuse(name: str, value: object, expected: str, hint: str = "") -> Never:
 
 
 def whole(name: str, value: object, low: int = 0, high: int = MOST, hint: str = "") -> int:
-    """A whole number in [low, high]. As in NumPy, 10.0 is none: a float is the result of
+    """A whole number in [low, high]. As in NumPy, 10.0 is not one: a float is the result of
     arithmetic, whose rounding would decide whether it is accepted."""
     most = {MOST: "2^53", 2**64 - 1: "2^64 - 1"}.get(high, high)
     expected = f"a whole number from {low} to {most}"
@@ -123,7 +123,7 @@ def path(name: str, value: object) -> str:
 
 def run_options(threads: object = 0, max_memory: object = 0,
                 progress: object = None) -> _stipple.How:
-    """The arguments that most calls have."""
+    """Checks the arguments that most calls have."""
     if not (progress is None or isinstance(progress, FLAGS) or callable(progress)):
         refuse("progress", progress, "True, or a function of the fraction done")
     if isinstance(progress, FLAGS):

@@ -77,7 +77,7 @@ def _meta_of_columns(meta: dict[str, Any], d: int, columns: list[int]) -> dict[s
 
 def _meta_of_part(points: Points, index: Any) -> Any:
     """The meta of a selection of points. Whole sets keep everything; otherwise the domain, names and
-    levels of the selected coordinates remain as far as they are true. None if the result is not
+    levels of the selected coordinates remain if they still hold. None if the result is not
     points."""
     keys = _keys_of(index, points.ndim)
     if keys is None or points.ndim not in (2, 3) or not (_picks(keys[-1]) and _picks(keys[-2])):
@@ -197,8 +197,8 @@ def as_rows(x: ArrayLike, name: str = "x", most: int = 2, gaps: bool = False) ->
 
 
 def _order(names: list[str], wanted: list[str | None], name: str) -> list[int] | None:
-    """The places of the wanted names; columns without them are taken in order. None: names that
-    carry no meaning, such as x, y, are not those of the domain."""
+    """Positions of the wanted names; a wanted None takes the next other column. If names are missing
+    and `names` mean nothing (x, y, ...): all columns in order, or None if their number differs."""
     missing = [key for key in wanted if key is not None and key not in names]
     if not missing:
         others = (k for k, key in enumerate(names) if key not in wanted)
@@ -210,7 +210,7 @@ def _order(names: list[str], wanted: list[str | None], name: str) -> list[int] |
 
 
 def _renumbered(column: Floats, words: list[str], levels: list[str], where: str) -> Floats:
-    """Places of a column's words, which are given by their places in `words`, among the levels."""
+    """Converts a column of indices into `words` to indices into `levels`."""
     places = {word: place for place, word in enumerate(levels)}
     known = np.array([places.get(word, -1) for word in words] + [-1], dtype=np.float64)
     is_place = (column >= 0) & (column < len(words)) & (column == np.floor(column))
@@ -224,7 +224,7 @@ def _renumbered(column: Floats, words: list[str], levels: list[str], where: str)
 
 
 def matched(one: Given, name: str = "x") -> Given:
-    """Points whose columns and words are those of their domain, found by name."""
+    """Returns the points with columns and words as in their domain, matched by name."""
     rows, domain, text_of_meta = one
     meta = json.loads(text_of_meta) if text_of_meta else {}
     names, words = meta.get("columns"), meta.get("levels") or {}
@@ -250,7 +250,7 @@ def matched(one: Given, name: str = "x") -> Given:
 
 
 def alike(sets: list[tuple[str, Given]]) -> list[Given]:
-    """Sets that are shown or written together: columns in the order of the first set, and equal
+    """Unifies sets shown or written together: columns in the order of the first set, and equal
     words with equal numbers."""
     metas = [json.loads(one[2]) if one[2] else {} for _, one in sets]
     named = [k for k, meta in enumerate(metas) if _frames.are_named(meta.get("columns") or [])]
@@ -321,7 +321,7 @@ def sets_of(x: Any, name: str = "x", domain: object = None) -> tuple[list[Given]
 
 
 def _domain_recorded(frame: Any, names: list[str]) -> str | None:
-    """The domain that a table records, of the columns that it still has."""
+    """The domain recorded in a table, for the columns that it still has."""
     domain, columns = _frames.recorded(frame) or ("", [])
     if names == columns or "parameters" in domain and sorted(names) == sorted(columns):
         return domain or None
@@ -365,7 +365,7 @@ def given_table(x: Any, name: str, domain: object) -> Given:
 
 
 def _inputs_recorded(frame: Any, names: list[str]) -> dict[str, Any]:
-    """What a table records of its inputs. Without names, a domain is only that of all its columns."""
+    """The inputs recorded in a table. A domain without names holds only for all its columns."""
     domain, columns = _frames.recorded(frame) or ("", [])
     inputs = [key for key in columns if key in names]
     if inputs != columns and "parameters" not in domain or not inputs:

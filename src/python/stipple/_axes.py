@@ -25,7 +25,7 @@ def axes_of(ax: Any) -> list[Any]:
 
 
 def _label(name: str) -> str | None:
-    """A name as legends show it: they leave out those that begin with an underscore."""
+    """A name in a form that legends show: they omit names that begin with an underscore."""
     return f" {name}" if name.startswith("_") else name or None
 
 

@@ -65,7 +65,7 @@ class Bridson:
         return inside
 
     def _first_free(self, candidates: Rows) -> Rows | None:
-        """The first candidate with enough room, now a point; None if there is none."""
+        """Makes the first candidate with enough room a point; None if there is none."""
         free = np.ones(len(candidates), dtype=bool)
         if self._tree is not None and len(candidates) > 0:
             nearest = self._tree.query(candidates, distance_upper_bound=self._radius)[0]

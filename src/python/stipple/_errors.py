@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 from . import _stipple
 
-# What the library says of the command line, and what a call has instead, from special to general.
+# Patterns of the library's words for the command line, and words for a call, special ones first.
 _SAYS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"--unit-cube beside .* --inverse' takes others back",
      "inverse(x, x.meta['domain']) takes them back to the cube"),
@@ -34,7 +34,7 @@ _SAYS: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
 
 @functools.cache
 def _options() -> frozenset[str]:
-    """Names of options with dashes that are not those of a unit, too."""
+    """Names of options that have dashes and are not also names of units."""
     units = [unit for kind in _stipple.records().values() if isinstance(kind, list) for unit in kind]
     options = {option["name"] for unit in units for option in unit["options"] if "-" in option["name"]}
     return frozenset(options.difference(*((unit["name"], *unit["aliases"]) for unit in units)))
@@ -45,7 +45,7 @@ def _argument(found: re.Match[str]) -> str:
 
 
 def in_python(message: str) -> str:
-    """A message with arguments and calls for options and commands: "n: ..." for "--count: ..."."""
+    """A message with arguments and calls instead of options and commands: "n: ...", not "--count: ..."."""
     for pattern, words in _SAYS:
         message = re.sub(pattern, words, message)
     message = re.sub(r"(unknown option ')([^']+)", lambda found: found[1] + found[2].replace("-", "_"), message)

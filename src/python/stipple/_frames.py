@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tables with named columns, as of pandas and polars: they need not be installed."""
+"""Tables with named columns, such as those of pandas and polars, which need not be installed."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def is_word(text: str) -> bool:
 
 
 def are_named(names: list[str]) -> bool:
-    """Whether a name carries a meaning: it is none that a file replaces, and not the default one."""
+    """Whether some name carries a meaning: a file can hold it, and it is not the default one."""
     return any(is_word(name) and name != usual for name, usual in zip(names, default_names(len(names))))
 
 

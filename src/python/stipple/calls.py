@@ -338,7 +338,7 @@ def analyze(analyzer: Unit, x: PointsLike, *, domain: str | None = None, paramet
         if domain is not None:
             raise Error("parameters and domain: give one of them")
         domain = _parameters_of(parameters)[0]
-    # The command line's only analyzer of tables, whose further columns are no coordinates.
+    # The only analyzer of tables, whose other columns are not coordinates.
     is_table = spec.partition(":")[0] == "sensitivity"
     one = given_table(x, "x", domain) if is_table else given(x, domain=domain)
     if callable(integrand):
@@ -467,7 +467,7 @@ def read(path: Path, *, format: str = "", d: Whole = 0, single: bool = False, th
 
 
 def _check_names(x: Any, sets: list[Given], format: str, header: bool, meta: bool) -> None:
-    """Refuses names and words that would not be read back; warns of words that the format has not."""
+    """Refuses names and words that would not be read back; warns of words that the format cannot hold."""
     tables = x if isinstance(x, (list, tuple)) else [x]
     for table, (rows, _, told) in zip(tables, sets):
         known = json.loads(told) if told else {}
@@ -618,7 +618,7 @@ def study(generators: Units, analyzers: Units, *, n: Whole | Iterable[Whole] = (
 
 
 def _by_name(x: Any) -> Any:
-    """Sets of an array (sets, n, d), and sets or reports of a list, by name: their numbers in x."""
+    """Sets of an array (sets, n, d), or sets or reports of a list, by name: their index in x."""
     items = x if isinstance(x, (list, tuple)) or isinstance(x, np.ndarray) and x.ndim == 3 else []
     several = len(items) > 0 and all(
         isinstance(one, Report) or is_frame(one) or isinstance(one, np.ndarray) and one.ndim == 2

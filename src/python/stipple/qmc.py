@@ -286,7 +286,7 @@ class Engine(QMCEngine):  # type: ignore[misc]
 
     def __init__(self, d: Whole, *, generator: str | None = None, optimization: str | None = None,
                  seed: Seed = None, rng: Rng = None, **options: Option) -> None:
-        self.d = d  # type: ignore[assignment]  # SciPy refuses what is no integer
+        self.d = d  # type: ignore[assignment]  # SciPy refuses other types
         self._first_seed = _first_seed(seed, rng)
         self._optimization = optimization
         self._name = generator or self.generator
@@ -536,7 +536,7 @@ class PoissonDisk(Engine):
         if hypersphere not in ("volume", "surface"):
             raise ValueError(f"{hypersphere!r} is not a valid hypersphere sampling method. It must "
                              "be one of {'volume', 'surface'}")
-        # No isinstance(): types have no float that is a Real, and what follows would go unchecked.
+        # Not isinstance(): type checkers take no float for a Real, and would skip the code below.
         if not (issubclass(type(radius), numbers.Real) and radius > 0):
             raise ValueError(f"radius must be above 0, not {radius!r}")
         if _whole("ncandidates", ncandidates) == 0:
