@@ -70,8 +70,8 @@ class UnitRunner {
     std::set<View> before_warps_;  ///< the measure gets the points before the warps
 };
 
-/// Whether one of the words is a part of the key between dots: value, centered and both match
-/// centered.value, mean matches mean[0].
+/// Whether one of the words is a part of the key between dots, or all of it: `value` and `centered`
+/// match centered.value, `mean` matches mean[0].
 bool is_meant(const std::string& key, const std::vector<std::string>& wanted);
 
 /// Returns a report's numbers in order, under dotted keys; flags are 0 and 1. Lists become numbers
