@@ -72,7 +72,7 @@ std::vector<double> rows_of_file(const std::string& path, const Planar& planar,
         double& y = rows[2 * i + 1];
         const Vec2 high{planar.low.x + planar.sides.x, planar.low.y + planar.sides.y};
         if (!(x >= planar.low.x && x <= high.x && y >= planar.low.y && y <= high.y))
-            fail(ErrorKind::input, "{}: point {}, ({}, {}), is outside {}", path, i + 1,
+            fail(ErrorKind::input, "{}: point {}, ({}, {}), is outside {}", path, i,
                  format_number(x), format_number(y),
                  format_box({{planar.low.x, planar.low.y}, {high.x, high.y}}));
         x = std::clamp(x - planar.low.x, 0.0, planar.sides.x);

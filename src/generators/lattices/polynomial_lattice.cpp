@@ -69,7 +69,8 @@ void refuse_contradictions(const Values& options) {
     if (options.given(vector_option) && options.given(vector_file))
         fail(ErrorKind::usage, "--vector contradicts --vector-file; give one of them");
     if (options.given(rule) && options[rule] == "cbc" && gives_vector(options))
-        fail(ErrorKind::usage, "--vector applies to the rule vector only; the rule here is cbc");
+        fail(ErrorKind::usage, "--{} applies to the rule vector only; the rule here is cbc",
+             options.given(vector_file) ? vector_file.name : vector_option.name);
     check_weights(options, searches(options), "the rule cbc", "vector");
 }
 

@@ -224,7 +224,7 @@ TEST(Lloyd, RefusesWhatContradictsOrIsOutside) {
         return error_of([&] { make("lloyd", request, settings); });
     };
     EXPECT_EQ(refusal({}, {{"from", path}}),
-              "input: " + path + ": point 2, (0.5, 1.5), is outside 0..1,0..1");
+              "input: " + path + ": point 1, (0.5, 1.5), is outside 0..1,0..1");
     EXPECT_EQ(refusal(points(3, 2), {{"from", path}}),
               "usage: --from contradicts --count; the count is that of the file");
     EXPECT_EQ(refusal({}, {{"from", path}, {"initial", "random"}}),

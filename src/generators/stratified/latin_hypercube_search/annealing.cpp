@@ -109,6 +109,9 @@ std::size_t Exchanges::make_feasible(SplitMix64& draws, const RunContext& run) {
             make_fit(draws, row);
         }
     }
+    if (wrong == 0) return 0;
+    wrong = 0;  // without those that the last pass repaired
+    for (std::size_t row = rules_.fixed; row < design_.points; ++row) wrong += !fits(row);
     return wrong;
 }
 
