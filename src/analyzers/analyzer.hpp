@@ -47,7 +47,7 @@ struct ResultKey {
     std::string_view words = {};  ///< possible values, separated by |; empty: numbers, or any text
     Better better = Better::neither;
     bool any_count = false;  ///< whether sets of different sizes can be compared
-    /// For each of `words` its sentence on a report page; {} is replaced by the test's values.
+    /// Explanations of `words` on report pages; {} is replaced by the statistic and the p-value.
     std::vector<std::pair<std::string_view, std::string_view>> sentences = {};
 };
 

@@ -141,7 +141,7 @@ class Analysis {
     std::vector<Group> groups_;  ///< one per measurement, if averaging
     std::map<std::string, std::size_t> group_indices_;
     std::vector<Waiting> waiting_;
-    std::size_t numbers_ = 0;  ///< number of coordinates in the collected sets
+    std::size_t numbers_ = 0;  ///< sum of n d over the sets in waiting_
 };
 
 }  // namespace stipple::cli

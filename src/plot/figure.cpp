@@ -196,7 +196,7 @@ Drawing sheet_of(std::span<const Frame> frames, PictureStyle style) {
     titles.letter.reset();
     auto [drawing, top] = titled_drawing("", "", titles, places.usual_width());
     if (untitled) top = 0;
-    if (!style.title || !untitled) style.title.reset();  // frames have their own titles
+    if (!style.title || !untitled) style.title.reset();  // an empty title hides those of frames
     const double width =
         std::max(std::floor((drawing.width - places.more) / places.across), least_width);
     if (style.height > 0)

@@ -161,8 +161,8 @@ std::vector<Guide> noise_anisotropy(Measurements ms) {
     return {{.name = fmt::format("white noise: {} dB", rounded(expected, 3)), .y = {expected}}};
 }
 
-/// Turns values of at most -100 dB into gaps: analyzers report these for an undefined anisotropy,
-/// without any power or pair.
+/// Turns values of at most -100 dB into gaps. Analyzers report -100 dB for rings without power or
+/// pairs of points, whose anisotropy is undefined, and for rings of equal powers.
 void make_gaps(std::vector<Series>& all) {
     constexpr double least = -100;
     for (Series& series : all) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Output of a study. Units are appended to the table as they are finished, in any order. When all
-// are present, the table is rewritten in the order of the study. Until then, a file FILE.journal
-// beside it names the study, and is locked by the process that works on it:
+// Output of a study. Units, each with the results of one measure for one set, are appended to the
+// table as they are finished, in any order. When all are present, the table is rewritten in the
+// order of the study. Until then, FILE.journal names the study, and is locked by its process:
 //
 //     {"format":"stipple.study-journal","version":3,"study":...,"settings":{...}}
 //
@@ -10,11 +10,11 @@
 // either the old table or the new one is complete.
 //
 // Resuming   If a table has a journal, its units are in any order; otherwise they are in order,
-//            without gaps. The last unit may lack rows. It is run again unless its keys are those
-//            of an earlier unit of the same measure. Anything after the last complete row of an
-//            unfinished table is cut off; damage anywhere else is an error. The rows of a finished
-//            smaller study stay at the front, and get the fingerprint of this one when the table is
-//            rewritten.
+//            without gaps. The last unit may lack rows. It is run again unless its rows have the
+//            keys of the preceding unit of the same measure; if an incomplete table ends with a
+//            list, both must also have the same generator, n and d. Text after the last complete
+//            row of an unfinished table is cut off; other damage is an error. Rows of a finished
+//            smaller study stay in front, and get this one's fingerprint in the rewritten table.
 // Beware     standard output, pipes and devices get rows in order: early rows wait in memory.
 #pragma once
 

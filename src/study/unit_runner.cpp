@@ -245,7 +245,7 @@ bool UnitRunner::may_take_image(const View& view, const RunContext& run) const {
                                       WarpChain(warps, view.dimension, {}, run), run);
     } catch (const Error& e) {
         if (e.kind() == ErrorKind::cancelled) throw;
-        return true;  // rows report all other errors
+        return true;  // any other error is reported in the unit's row
     }
 }
 
@@ -256,7 +256,7 @@ WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext&
     WorkDone done;
     MadeSet set;
     std::map<std::size_t, UnitResult> results;  // results for this set, by index of the measure
-    std::optional<std::pair<std::uint64_t, std::uint64_t>> made;  // cell and seed of the set
+    std::optional<std::pair<std::uint64_t, std::uint64_t>> made;  // cell and seed index of `set`
     for (const UnitRange& range : ranges)
         for (std::uint64_t index = range.first; index < range.last; ++index) {
             quiet.check_stop();

@@ -80,8 +80,8 @@ void WorkQueue::sort() {
     constexpr double pieces_of_worker = 32;
     grain_ = std::clamp(seconds_left() / (pieces_of_worker * workers_), shortest, longest);
     pieces_left_ = 0;
-    // Keys for sorting: n d during the early pieces, so that all generators make the same sets;
-    // then the seconds of a cell's piece if they are above grain_, else 0.
+    // Sort keys. Early pieces: n d, so that all generators begin with the same sizes of sets. Later
+    // pieces: the seconds of a cell's next piece if they are above grain_, else 0.
     std::vector<double> sizes(work_.size());
     for (const std::uint64_t cell : cells_) {
         const Piece piece = piece_of(cell);

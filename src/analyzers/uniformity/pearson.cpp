@@ -350,8 +350,8 @@ class EqualCounts {
     std::vector<double> weights_;
 };
 
-/// Binomial probability of k = `count` of n points whose mean is `expected`. The powers of n, k and
-/// n - k are separated from n! / (k! (n - k)!), so that nothing cancels.
+/// Binomial probability of k = `count` of n points with mean `expected`. n!, k! and (n - k)! enter
+/// by log_excess(), without the powers n^n, k^k and (n - k)^(n - k), which would cancel.
 double binomial_chance(double count, double n, double expected) {
     const auto off = [](double found, double right) {
         const double e = (found - right) / right;

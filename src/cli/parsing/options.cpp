@@ -97,7 +97,7 @@ void take(std::vector<std::uint64_t>& field, const CommonOption& common, const s
     field = parse_counts(text, "--" + common.option.name, 1, high);
 }
 
-/// For lists: appends specs, names as a line of CSV, or the text of a repeatable option.
+/// Appends to a list: the text's specs or CSV names or, for a repeatable option, the text.
 void take(std::vector<std::string>& field, const CommonOption& common, const std::string& text) {
     if (common.value == "SPECS")
         std::ranges::move(split_specs(text, "--" + common.option.name), std::back_inserter(field));

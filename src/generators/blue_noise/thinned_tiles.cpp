@@ -143,8 +143,8 @@ std::optional<Window> narrowed(const Window& window, const Histogram& found, std
     return {};
 }
 
-/// Window that contains the score of index `wanted` and at most 2^16 scores, more only if they are
-/// equal; nullopt if there are too few scores.
+/// Window with the score of index `wanted` in ascending order, and at most 2^16 scores, or more if
+/// all are equal; nullopt if there are too few scores.
 std::optional<Window> window_of(const TilesInWindow& candidates, std::uint64_t wanted,
                                 const RunContext& run) {
     constexpr std::uint64_t few = 1 << 16;

@@ -117,7 +117,7 @@ class BoxObjective final : public Objective {
     }
 
     [[nodiscard]] double steps() const override {
-        return 500.0 * static_cast<double>(n_ * d_);  // includes occasional exact searches
+        return 500.0 * static_cast<double>(n_ * d_);  // average, with occasional exact searches
     }
 
   private:

@@ -157,7 +157,7 @@ void check_weights(const Values& options, std::size_t dimension) {
             fail(ErrorKind::usage, "--weights: {} is outside (0, 1000]", format_number(weight));
 }
 
-/// Checks --lattice: only measures on the torus are independent of the lattice's shift.
+/// Rejects --lattice for objectives that depend on the lattice's shift, or with initial points.
 void check_lattice(const Values& options) {
     if (!options[lattice]) return;
     const std::string what = options[objective];

@@ -17,7 +17,7 @@ namespace stipple::poisson_disk {
 /// as sub-cells. Counts on up to `most` parts are drawn fastest.
 class PoissonCounts {
   public:
-    /// @param mean number of darts per part; finite
+    /// @param mean expected number of darts on one part; finite
     PoissonCounts(double mean, std::size_t most);
 
     [[nodiscard]] double mean(std::size_t parts) const {

@@ -342,7 +342,7 @@ class TileRounds {
         }
     }
 
-    /// Calls visit(tile, steps) for a tile itself and its neighbours.
+    /// Calls visit(other, steps) for a tile itself and its neighbours, `steps` cells away.
     template <class Visit>
     void for_neighbours(const T& tile, const Visit& visit) {
         for (const auto& n : tile.neighbours) visit(tiles_[n.number], n.steps);

@@ -106,7 +106,7 @@ class Affine {
         return left.finite();
     }
 
-    /// Makes a part the inequality left < right, or another of < <= > >=.
+    /// Turns `left` into the inequality left < right, or <=, >, >=; false if a number overflows.
     static bool compare(Part& left, const Part& right, std::string_view sign) {
         left.add(right, -1);
         if (!left.finite()) return false;

@@ -350,7 +350,7 @@ class Reader {
     const FormulaOperation* operation_ = nullptr;  ///< of a function or an operator
     std::optional<std::size_t> named_;             ///< coordinate that the token names
     std::optional<std::size_t> before_;            ///< coordinate that the previous token names
-    std::optional<std::size_t> left_;              ///< coordinate left of == or != before the token
+    std::optional<std::size_t> left_;              ///< coordinate left of a preceding == or !=
 };
 
 }  // namespace

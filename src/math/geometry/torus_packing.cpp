@@ -93,7 +93,7 @@ TorusPacking rows_of(const Basis& basis, std::int64_t n) {
 
 /// Lengths of integer vectors on a rectangle.
 struct Metric {
-    double x2;  ///< square of the unit of x
+    double x2;  ///< squared length of the vector (1, 0)
     double y2;
 
     double dot(Vector a, Vector b) const {
@@ -108,7 +108,7 @@ std::optional<Vector> partner(Vector u, std::int64_t n, const Metric& metric) {
     const Bezout unit = bezout(u.x, u.y);
     const std::int64_t g = unit.divisor;
     if (n % g != 0) return std::nullopt;
-    // A solution v whose component along u is less than one step, the length of u / g.
+    // A solution v of u x v = n, reduced modulo u / g in the larger component of u.
     const Int128 far_x = -Int128{unit.t} * (n / g);
     const Int128 far_y = Int128{unit.s} * (n / g);
     const Int128 turns = u.x > u.y ? far_x / (u.x / g) : far_y / (u.y / g);

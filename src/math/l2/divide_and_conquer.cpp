@@ -231,7 +231,7 @@ class ThreeProducts {
 
 struct Item {
     std::array<std::uint64_t, max_axes> at;
-    Fixed weight = unity;     ///< product of the factors on the axes halved so far; OneProduct only
+    Fixed weight = unity;     ///< product of the item's factors on divided axes; for OneProduct
     std::uint32_t point;      ///< index in the order of the last axis
     std::uint32_t upper = 0;  ///< bit set of the axes on which the point was in an upper half
 

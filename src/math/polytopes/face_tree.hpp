@@ -79,8 +79,8 @@ class FaceTree {
     [[nodiscard]] int side_of(const Path& path, double u) const;
     [[nodiscard]] std::vector<double> means(std::size_t k) const;
 
-    /// Computes a number for each face from the numbers of its facets, as the sum of share *
-    /// part(number of the facet, apex, dimension).
+    /// Computes a value for each face: the sum over its facets of share * part(values, facet, apex,
+    /// dimension of the face); for a vertex, part(values, vertex, vertex, 0).
     template <class Part>
     [[nodiscard]] std::vector<double> over_faces(const Part& part) const;
 

@@ -47,8 +47,8 @@ class SphericalDomain final : public NamedDomain {
     /// @param corners in order, in either direction; unit vectors, neighbours distinct
     /// @param inward unit normals of the planes of the edges after each corner; empty: computed
     /// from the corners, whose neighbours must not be antipodal
-    /// @param cells the inverse that defines the cells
-    /// @param slack tolerance for rounding: distance beyond an edge's plane, and error of a length
+    /// @param cells map to the cube for to_cube(), instead of the inverse of the warp
+    /// @param slack tolerance for rounding: distance beyond an edge's plane, and |length - 1|
     SphericalDomain(std::string spec, std::vector<Vector3> corners, std::vector<Vector3> inward,
                     Cells cells, double area, double slack, std::vector<std::string> axes);
 

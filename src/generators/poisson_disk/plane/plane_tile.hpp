@@ -55,7 +55,7 @@ using FourNumbers [[gnu::vector_size(16)]] = std::int32_t;
     off -= (Halves)(FourNumbers{} + std::bit_cast<std::int32_t>(from));
     const FourNumbers x = (FourNumbers)off << 16 >> 16;
     const FourNumbers y = (FourNumbers)off >> 16;
-    return x * x + y * y;  // below 2^31, as y is small
+    return x * x + y * y;  // below 2^31: |x| <= 2^15, |y| <= 2.2 radii < 2^15
 }
 
 /// Positions of the points in a tile's cells.

@@ -253,7 +253,7 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
     /// Points from the corners of their cells, in radii; the last component is the index i among
     /// the tile's points, or -1 - i for the index in exact_. Floats hold such integers exactly.
     std::vector<SpaceRules::Quad> places_;
-    std::vector<double> exact_;  ///< points of other tiles
+    std::vector<double> exact_;  ///< x, y, z of the points of other tiles
     std::size_t own_ = 0;
     std::size_t beyond_ = 0;
 };

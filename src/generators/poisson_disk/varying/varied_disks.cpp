@@ -188,7 +188,7 @@ class VariedSampler {
                                    [&](const Disk& other) { return index_.too_near(disk, other); });
     }
 
-    /// Whether a disk may be too near to a dart on the gap; the radius of darts is at most `most`.
+    /// Whether a disk may be too near to a dart in the gap with a radius of at most `most`.
     [[nodiscard]] bool reaches(const Disk& disk, const VariedGap& gap, double most) const {
         const double r = std::min(disk.radius, most) + finest_;
         double sum = 0;

@@ -35,11 +35,11 @@ struct Design {
     bool operator==(const Design&) const = default;
 };
 
-/// Design close to a lattice, with points that are far apart. Some random lattices of rank 1 with
-/// about N = n, ..., 1.3 n points are compared. The one that should keep the largest minimum
-/// distance is shifted at random on the torus, and its n points nearest to the middle are kept, by
-/// a maximum norm with random weights. Levels are the ranks of coordinates. For N = n + 1 there is
-/// no shift: the removed point is a corner, and distances stay the same.
+/// Design close to a rank-1 lattice, with a large minimum distance. Of some random lattices with
+/// n <= N <= 4 n / 3 + 1 points, the one with the largest minimum distance, as estimated for n of
+/// its points, is shifted at random on the torus. The n points nearest to the middle are kept, by a
+/// maximum norm with random weights. Levels are the ranks of coordinates. If N = n + 1, nothing is
+/// shifted, and the point 0 is removed, which changes no distances between the others.
 Design lattice_start(std::size_t points, std::size_t dimension, SplitMix64& draws);
 
 /// Coordinate whose levels represent outcomes of a parameter; equal outcomes are consecutive.

@@ -294,7 +294,7 @@ class CellBounder {
             const std::int32_t at =
                 std::max(ranks[i] - start, static_cast<std::int32_t>(i % dummy_bins));
             auto& bin = bins[static_cast<std::size_t>(at)];
-            // Open boxes: a point undecided only on another axis is below lo, so in a dummy bin.
+            // Open boxes: if the point is undecided only on another axis, `at` is a dummy bin.
             const bool assigned = side == Side::open ? state_[i] == 1 : axes_[i] == axis;
             bin = (bin + (assigned ? 1U : 0U)) | candidate;
         }
