@@ -44,10 +44,10 @@ struct ResultKey {
     std::string key;  ///< dotted; a part in capital letters is a placeholder for any name
     std::string help;
     bool always = true;           ///< false: reported only with some options
-    std::string_view words = {};  ///< possible values, separated by |; empty: numbers, or any text
+    std::string_view words = {};  ///< possible values, separated by |; empty: a number or any text
     Better better = Better::neither;
-    bool any_count = false;  ///< whether sets of different sizes can be compared
-    /// Explanations of `words` on report pages; {} is replaced by the statistic and the p-value.
+    bool any_count = false;  ///< comparable between sets of different sizes
+    /// Each of `words` with its sentence on report pages; {}: the statistic and the p-value.
     std::vector<std::pair<std::string_view, std::string_view>> sentences = {};
 };
 
@@ -90,7 +90,7 @@ class Accumulator {
     virtual Report report(const RunContext& run) = 0;
 };
 
-/// Analyzes a part of a set whose count was announced, and merges the states of other parts.
+/// Analyzes a part of a set of announced count, and merges the states of other parts.
 class SharedAccumulator : public Accumulator {
   public:
     /// Called before any points if this part does not begin the set. Its first point has the index
@@ -108,7 +108,7 @@ class SharedAccumulator : public Accumulator {
 /// Ways for several processes to share the work on one set: each sees a part of the points (grain),
 /// or each sees all points and does a part of a search (together). At most one of the two is set.
 struct Sharing {
-    /// Alignment of parts: each begins at a multiple of this number of points. `accumulate` then
+    /// Returns a number of points; each part begins at a multiple of it. With `grain`, `accumulate`
     /// makes a SharedAccumulator. @throws Error(usage) if these options do not allow sharing
     std::function<std::uint64_t(const Arrival&, const Values&)> grain = {};
 
@@ -163,7 +163,7 @@ struct Analyzer {
     std::string summary;
     std::string source;
     std::string family = {};  ///< family name such as "blue noise", set by the registry
-    /// Search words such as its kind or uses; not names of other analyzers, warps or generators.
+    /// Search words such as the analyzer's kind or uses; no names of analyzers, warps, generators.
     std::vector<std::string> related = {};
     AnalyzerTraits traits;
     Schema options;
@@ -186,7 +186,7 @@ struct Analyzer {
     std::function<std::unique_ptr<Accumulator>(const Arrival&, const Values&, const RunContext&)>
         accumulate = {};
 
-    /// Seconds on one core for a set of n points, within a factor of ten; empty: 5e-7 n d.
+    /// Seconds on one core for n points of d dimensions, within a factor of ten; null: 5e-7 n d.
     double (*cost)(double n, double d) = nullptr;
 
     /// Ways for several processes to share the work on one set; empty: there are none.
@@ -220,7 +220,7 @@ void check_dimension(const Analyzer& analyzer, std::size_t dimension);
 /// Whether all reports to be averaged have the same value under a key, up to rounding.
 bool alike(std::span<const Report> sets, std::string_view key);
 
-/// Removes entries that cannot be averaged from a report, such as positions and pairs.
+/// Removes the results with these names, such as positions and pairs, which cannot be averaged.
 void drop(Report& report, std::initializer_list<std::string_view> names);
 
 namespace analyzers {

@@ -111,7 +111,7 @@ std::int64_t whole_root(std::int64_t x) {
     return root;
 }
 
-/// Shells of a ring by |f|^2, up to F^2.
+/// Shells of a ring by |f|^2, without those beyond the highest frequency.
 std::map<std::int64_t, Shell> shells_of(const Grid& power, std::int64_t ring,
                                         const RunContext& run) {
     std::map<std::int64_t, Shell> shells;
@@ -169,7 +169,7 @@ double effective_nyquist(const Grid& power, const Rings& rings, const RunContext
 
 namespace {
 
-/// Mean over the frequencies of rings first..last; weighted(cells, power) is the sum over one ring.
+/// Mean of a term over rings first..last; weighted(cells, power) is the term's sum over one ring.
 template <class Weighted>
 double mean_of(const Rings& rings, std::size_t first, std::size_t last, const Weighted& weighted) {
     double sum = 0;

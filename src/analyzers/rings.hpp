@@ -24,17 +24,17 @@ struct Rings {
 /// @param power at the frequencies -F..F of each axis, one row for each (f_2, f_1)
 Rings rings_of(const Grid& power, const RunContext& run);
 
-/// Decibels of a ratio of powers above 0.
+/// Converts a ratio of powers, which is above 0, to decibels.
 double decibels(double ratio);
 
 /// Anisotropy of a ring in dB, at least -100; -100 also if the mean is at most `least`.
 double anisotropy_db(double variance, double mean, double least = 0);
 
-/// Effective Nyquist frequency: half the radius of the largest disk of frequencies whose mean power
-/// is at most 0.1. @param rings those of `power`
+/// Effective Nyquist frequency: half the radius of the largest disk of frequencies with a mean
+/// power of at most 0.1. @param rings rings_of(power)
 double effective_nyquist(const Grid& power, const Rings& rings, const RunContext& run);
 
-/// Oscillation of the radial power; complete if P_k reaches 0.98 and its range of rings ends by F.
+/// Oscillation; complete if a ring's power reaches 0.98 and all rings of its definition are known.
 struct Oscillation {
     double value;
     bool complete;

@@ -39,11 +39,11 @@ using namespace discrepancy;
 constexpr Param<bool> torus{
     .name = "torus", .help = "Join opposite faces of the cube, so that boxes may wrap around"};
 
-/// Limit beyond any machine's memory; it keeps sort keys of points below 2^31.
+/// Limit beyond any machine's memory; keys of points in the planar sweep fit 32-bit integers.
 constexpr std::size_t max_count = std::size_t{1} << 29;
 
 /// Largest empty box. If the search in the plane is cut short, the upper bound is that of the
-/// discrepancy over the same family of boxes, which is at least the volume of any empty box.
+/// discrepancy for the same boxes: an empty box contributes its volume to the discrepancy.
 SearchResult largest_empty_box(const BoxGrid& grid, const PointSet& points,
                                const SearchLimits& limits, const RunContext& run) {
     if (grid.dimension() != 2) return extreme::find_worst(grid, limits, run);

@@ -83,7 +83,7 @@ constexpr Param<Choice> smoothness{.name = "smoothness",
                                    .choices = "0.5|1.5|2.5",
                                    .help = "Smoothness parameter nu of the kernel matern"};
 
-/// Limit beyond practical run times; sums over the pairs of so many points fit 128 bits.
+/// Limit beyond practical run times; integer sums over all pairs of so many points fit 128 bits.
 constexpr std::size_t max_count = std::size_t{1} << 26;
 
 /// Points to analyze, and the bandwidth of the kernel.
@@ -160,7 +160,7 @@ PointSet on_cube(const PointSet& points) {
     return cube;
 }
 
-/// Sets h to --bandwidth or, without this option, to `fallback`, whose rule is called `rule`.
+/// Sets h to --bandwidth if given, otherwise to `fallback`; `rule` names the rule of the fallback.
 void set_bandwidth(Setting& setting, const Values& options, double fallback, const char* rule) {
     const bool given = options.given(bandwidth);
     setting.h = given ? options[bandwidth] : fallback;
@@ -205,7 +205,7 @@ Report report_of(const Setting& setting, const kernels::SquaredDiscrepancy& foun
     return report;
 }
 
-/// Squared discrepancy by exact sums; nullopt unless these are much faster than all pairs.
+/// Squared discrepancy by exact sums: for the periodic kernel, d <= 2 and many points; or nullopt.
 std::optional<kernels::SquaredDiscrepancy> by_exact_sums(const PointSet& cube,
                                                          const Values& options,
                                                          const RunContext& run) {
@@ -219,7 +219,7 @@ std::optional<kernels::SquaredDiscrepancy> by_exact_sums(const PointSet& cube,
                                        one_point / static_cast<double>(cube.count())};
 }
 
-/// Kernel with its means over the points' own domain.
+/// Kernel, with its expectations for the distribution of the points' domain.
 kernels::KernelPtr kernel_over_domain(const PointSet& points, const Setting& setting,
                                       const Values& options, const RunContext& run) {
     if (options[kernel] == "periodic" || is_unit_cube(*points.domain))

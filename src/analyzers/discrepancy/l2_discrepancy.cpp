@@ -123,7 +123,7 @@ double error_of_root(double squared, double error) {
     return std::sqrt(std::max(squared, 0.0) + error);
 }
 
-/// Warns if all pairs take more than some ten minutes on one core.
+/// Warns if computing all pairs takes about ten minutes or more on one core.
 void warn_of_pairs(std::size_t n, std::size_t d, l2::Kind which, const RunContext& run) {
     const double pairs = static_cast<double>(n) * static_cast<double>(n) / 2;
     const double seconds = 0.6e-9 * pairs * static_cast<double>(d);
@@ -134,7 +134,7 @@ void warn_of_pairs(std::size_t n, std::size_t d, l2::Kind which, const RunContex
                     l2::record_of(which).name, n, d, seconds / 60));
 }
 
-/// Reports the root of a square with its error; warns if few digits are certain.
+/// Report of the root of `square` with its largest error; warns if few of its digits are certain.
 Report off_by(const l2::Square& square, l2::Kind which, const char* method, const RunContext& run) {
     constexpr double few_digits = 1e-9;
     constexpr double smallest = std::numeric_limits<double>::min();

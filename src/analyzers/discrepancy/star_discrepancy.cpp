@@ -24,8 +24,8 @@
 //         Other kinds, d = 2: branch and bound over O(n^2) cells at worst, of a few points each.
 //         1024 points take 0.1 s (random) to 0.4 s (Hammersley), 4096 points 0.5 s to 9 s; the
 //         periodic kind of even points takes ten times as long. d > 2: up to n^(2(d - 1)) cells;
-//         1000 random points in 3-D take 10 s, 128 in 5-D 5 s. A first bound of many points in few
-//         dimensions is 2^d D* (periodic: (3^d - 1) D*).
+//         1000 random points in 3-D take 10 s, 128 in 5-D 5 s. For many points in few dimensions
+//         a first upper bound is 2^d D* (periodic: (3^d - 1) D*).
 // Promise `exact` reports whether the value is exact: counts are integers, boxes are compared
 //         without rounding, and the value is the double nearest to that of the worst box. Otherwise
 //         the worst box found gives `lower`, and no box is worse than `upper`. Never depends on the
@@ -139,8 +139,8 @@ struct Columns {
     Report::Curve upper;
 };
 
-/// Trivial bounds of any kind of discrepancy for any n points. The lower one, 1/(2n), holds even
-/// for the coordinates on a single axis.
+/// Bounds that hold for any kind of discrepancy and any n points: 1 and 1/(2n), the smallest
+/// star discrepancy of n numbers on an axis.
 Report least_known(std::size_t count) {
     const double lower = 0.5 / static_cast<double>(count);
     Report known;
@@ -161,7 +161,7 @@ class Table {
           measure_(measure),
           run_(run) {}
 
-    /// Measures one set. If `together` sets are measured at a time, each uses a single thread.
+    /// Measures one set; on a single thread if `together` > 1 sets are measured at a time.
     void fill(std::size_t row, const PointSet& points, double weight, double together) {
         RunContext mine = together > 1 ? run_ : progress_of(points.count());
         if (together > 1) mine.progress = {}, mine.threads = 1;
@@ -197,7 +197,7 @@ class Table {
     Columns columns;
 
   private:
-    /// Limits of the next set if `together` are measured at a time, and whether it is the first.
+    /// Limits of the next set while `together` sets are measured at once; whether it is the first.
     std::pair<Limits, bool> next_limits(double weight, double together) {
         const std::lock_guard lock(counting_);
         const bool first = left_ == weight_;
@@ -325,7 +325,7 @@ Report of_prefixes(const PointSet& points, const std::vector<std::size_t>& sizes
     return result;
 }
 
-/// Adds bounds of the table's largest value, and this value if the worst row is certain and exact.
+/// Adds the bounds of the table's largest value; also the value, if its row is certain and exact.
 void add_largest(Report& table) {
     const auto& lower = table.curve("lower");
     const auto& upper = table.curve("upper");
@@ -624,7 +624,7 @@ Analyzer unit() {
                       "periodic-discrepancy"}},
             .analyze = analyze,
             .cost =
-                [](double n, double d) {  // fitted to Halton, Sobol' and random points
+                [](double n, double d) {  // seconds fitted to Halton, Sobol' and random points
                     if (d <= 2) return 3e-8 * std::pow(n, 1.33);
                     return std::min(100.0, 5e-8 * std::pow(n, d <= 8 ? 1 + d / 4 : 2.2 + d / 10));
                 },

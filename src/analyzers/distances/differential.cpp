@@ -102,7 +102,7 @@ Plan plan_for(const PointSet& points, const Values& options) {
 /// Counts of differences in the pixels, row by row.
 using Counts = std::vector<std::uint64_t>;
 
-/// Largest number of blocks, each with an image of counts: 1 GiB in total, but between 4 and 64.
+/// Limit for the number of blocks, each with its own counts: as many as fit 1 GiB, from 4 to 64.
 std::uint64_t most_blocks(std::size_t pixels) {
     constexpr std::uint64_t most_counts = std::uint64_t{1} << 27;
     return std::clamp<std::uint64_t>(most_counts / (pixels * pixels), 4, 64);
@@ -171,7 +171,7 @@ std::vector<double> chances(const Plan& plan, std::size_t axis) {
     const double side = plan.distances.box->extent(axis);
     const double width = plan.side();
     std::vector<double> chance(plan.pixels);
-    const auto below = [&](double x) {  // probability of a straight difference in [0, x]
+    const auto below = [&](double x) {  // probability that a straight difference is in [0, x]
         return x / side * (1 - x / side / 2);
     };
     const auto middle = static_cast<double>(plan.pixels / 2);

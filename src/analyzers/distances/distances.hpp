@@ -65,7 +65,7 @@ bool all_equal(const PointSet& points);
 void require_places(const PointSet& points, const char* analyzer);
 
 /// Nearest other point of every point. A single point is its own neighbour on the torus, across the
-/// shortest side; otherwise it has none: the distance is infinite. @throws Error(limit, cancelled)
+/// shortest side; for straight distances its distance is infinite. @throws Error(limit, cancelled)
 std::vector<Neighbor> nearest_neighbors(const PointSet& points, const Distances& distances,
                                         const RunContext& run);
 

@@ -253,7 +253,7 @@ namespace {
 
 double squared_length(const Vec2& v) { return v.x * v.x + v.y * v.y; }
 
-/// Recomputes a corner from the neighbours beyond its two edges, more accurately than the cuts.
+/// Recomputes a corner, in higher precision, from the two neighbours whose bisectors meet there.
 Vec2 refined(const CellCorner& before, const CellCorner& corner, double squared_reach) {
     const Vec2& a = before.neighbor;
     const Vec2& b = corner.neighbor;
@@ -261,14 +261,14 @@ Vec2 refined(const CellCorner& before, const CellCorner& corner, double squared_
         return exact_product(0.5 * site.x, site.x) + exact_product(0.5 * site.y, site.y);
     };
     const DoubleDouble determinant = exact_product(a.x, b.y) + exact_product(-a.y, b.x);
-    const auto solved = [&](double p, double q) {  // (limit(a) p - limit(b) q) / determinant
+    const auto solved = [&](double p, double q) {  // one coordinate, by Cramer's rule
         const DoubleDouble sum = limit(a) * DoubleDouble{p} + limit(b) * DoubleDouble{-q};
         const double ratio = sum.high / determinant.high;
         return ratio + (sum + determinant * DoubleDouble{-ratio}).high / determinant.high;
     };
     const Vec2 found{solved(b.y, a.y), -solved(b.x, a.x)};
     const Vec2 change{found.x - corner.at.x, found.y - corner.at.y};
-    // With nearly parallel edges a corner is uncertain anyway; keeps the corner as it was cut.
+    // A larger change means that the edges are nearly parallel: keeps the corner as it was cut.
     return squared_length(change) < 1e-12 * squared_reach ? found : corner.at;
 }
 
@@ -283,9 +283,9 @@ constexpr double tied = 1 - 1e-9;
 
 std::vector<Record> best_cells(const PlanarCells& cells, std::size_t count, const RunContext& run) {
     constexpr std::uint64_t size = 2048;
-    constexpr std::size_t most = 100;  // more ties occur only in periodic sets
+    constexpr std::size_t most = 100;  // only periodic sets have more ties
     std::vector<std::vector<Record>> parts(block_count(count, size));
-    std::atomic<double> best = 0;  // update timing affects which cells are cut, not the result
+    std::atomic<double> best = 0;  // when it is updated affects the work, not the result
     for_each_block(run, count, size, [&](const Block& b) {
         VoronoiCell cell;
         for (std::size_t i = b.first; i < b.last; ++i) {

@@ -39,7 +39,7 @@ struct EmptyBall {
 /// Limits of the branch and bound for d >= 3.
 struct BallSearch {
     double tolerance = 1e-6;
-    double enough = 0;  ///< radius; if no empty ball is larger, the search only proves this
+    double enough = 0;  ///< radius; boxes without larger balls are not divided
     std::uint64_t max_boxes = 100'000'000;
 };
 

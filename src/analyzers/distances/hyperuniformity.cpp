@@ -104,8 +104,8 @@ constexpr Param<std::int64_t> window_count{
     .help =
         "Number of random windows with --metric euclidean; on the torus all positions are counted"};
 
-/// Number of bins within twice the smallest radius, and limits for the number of bins within twice
-/// the largest radius, which take precedence.
+/// Number of bins within twice the smallest radius, unless the number of bins within twice the
+/// largest radius would be below `fewest_bins` or above `most_bins`.
 constexpr double bins_in_smallest = 400;
 constexpr double fewest_bins = 4096;
 constexpr double most_bins = 16384;
@@ -185,7 +185,7 @@ struct BinPairs {
     std::array<Stand, 2> most;
 };
 
-/// Two distances, one of them at an end of the bin, with the mean and variance of the bin's pairs.
+/// Represents a bin's pairs by two distances, one of them `end`, of the same mean and variance.
 std::array<Stand, 2> with_end(double pairs, double mean, double variance, double end) {
     const double off = mean - end;
     const double share = variance / (variance + off * off);
@@ -202,7 +202,7 @@ std::vector<BinPairs> bins_of(const PairCounts& counts, double width) {
         const double spread = counts.squared_offsets[b] / pairs - offset * offset;
         const double mean = low + (offset + 0.5) * width;
         bins[b].least = bins[b].most = {{{mean, pairs}, {mean, 0}}};
-        // The variance is 0, or all pairs are at an end of the bin, up to rounding.
+        // One distance suffices if, up to rounding, the variance is 0 or all pairs are at an end.
         if (spread < 1e-14 || !(std::abs(offset) < 0.5 - 1e-7)) continue;
         bins[b].least = with_end(pairs, mean, spread * width * width, low);
         bins[b].most = with_end(pairs, mean, spread * width * width, low + width);
@@ -238,8 +238,8 @@ struct Curves {
     Report::Curve dispersion;
 };
 
-/// Adds the slope of log variance against log radius by least squares. Skips radii with a variance
-/// of 0, which occur in one dimension.
+/// Adds the slope of log variance against log radius by least squares. Skips radii where the
+/// variance is 0 up to rounding, as happens in one dimension.
 void add_exponent(Report& report) {
     const auto& variance = report.curve("variance");
     const auto& mean = report.curve("mean");
@@ -397,14 +397,14 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return results;
 }
 
-/// Reports that sets have different radii. @throws Error(usage)
+/// @throws Error(usage) because reports with different radii cannot be averaged
 [[noreturn]] void refuse_mean() {
     fail_with_hint(ErrorKind::usage, "set one --min-radius and --max-radius for all",
                    "--average: the sets have windows of different radii, because their numbers of "
                    "points differ");
 }
 
-/// Recomputes the exponent from the mean variance, which scatters less than the exponents' mean.
+/// Recomputes the exponent from the mean variance: it scatters less than the mean of exponents.
 void refine(Report& mean, std::size_t, const Values&) {
     if (!mean.find("radius")) refuse_mean();
     add_exponent(mean);

@@ -16,8 +16,8 @@
 // 1/2, 1/(2 sqrt 3), 1/(4 sqrt 2), 1/8, 1/(8 sqrt 2), 1/(8 sqrt 3), 1/16, 1/16. In 2-D that is
 // minimum / sqrt(2 V / (sqrt 3 n)), as in the literature on blue noise. No set is denser for d = 1,
 // 2, 3 and 8, so the ratio is at most 1 on the torus; for d = 4 to 7 no denser set is known. The
-// key is left out for d > 8, for points without a box, and in other norms. On the torus a point is
-// also a neighbour of its own copies: a minimum above the shortest side counts as that side.
+// ratio is left out for d > 8, for points without a box, and in other norms. On the torus a point
+// is also a neighbour of its own copies: a minimum above the shortest side counts as that side.
 //
 // Shape   n >= 2 points of any dimension. A duplicate has distance 0.
 // Cost    O(n log n) for few dimensions; on one core 10^6 even points take 0.3 s in 2-D, 0.6 s in

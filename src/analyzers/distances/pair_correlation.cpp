@@ -126,7 +126,7 @@ Plan plan_for(const PointSet& points, const Values& options) {
 }
 
 /// Probability that two independent points are nearer than x bin widths, for x at the edges of the
-/// bins and at the nodes of Gauss's rule in them.
+/// bins and at the nodes of Gaussian quadrature inside them.
 class Chances {
   public:
     static constexpr std::array<double, 4> nodes = {0.069431844202973714, 0.33000947820757187,
@@ -162,7 +162,7 @@ struct Curves {
     Report::Curve density;
     Report::Curve deviation;
 
-    /// Adds g(t), from the pairs' sum of weights and from the mean and mean square of one weight.
+    /// Adds g(t) and its deviation, from the sum of all weights and the moments of one weight.
     void add(double t, double sum, double mean, double mean_square, double pairs) {
         distance.push_back(t);
         density.push_back(mean > 0 ? sum / (pairs * mean) : 0);

@@ -19,7 +19,7 @@ namespace {
 /// Number of candidates whose distances are computed at a time.
 constexpr std::size_t batch_size = 256;
 
-/// A position, and the points whose distances from it are computed, with coordinates axis by axis.
+/// A position, and points whose distances from it are computed; their coordinates axis by axis.
 template <std::size_t D>
 struct FromPlace {
     std::array<const double*, D> columns;  ///< coordinates of the points
@@ -89,7 +89,7 @@ class PairCounter {
         const double reach = static_cast<double>(bins_) / scale_;
         std::vector<PairCounts> parts(block_count(points_.count(), size));
         for_each_block(run_, points_.count(), size, [&](const Block& b) {
-            PairCounts counts = none_in(bins_ + 1);  // the last bin is for larger distances
+            PairCounts counts = none_in(bins_ + 1);  // one more, for larger distances
             points_.visit_pairs(b.first, b.last, reach, run_,
                                 [&](std::size_t s, std::size_t first, std::size_t last) {
                                     for (std::size_t t = first; t < last; t += batch_size)
@@ -172,8 +172,8 @@ struct Axis {
 
 double squared(double x) { return x * x; }
 
-/// Integral over x in [low, high] of a's density at x times b.within(sqrt(r^2 - x^2)), where the
-/// root is at most b's reach.
+/// Integral over x in [low, high] of a's density at x times b.within(sqrt(r^2 - x^2)). Requires
+/// that the root is at most b.reach().
 double under_arc(const Axis& a, const Axis& b, double r, double low, double high) {
     const auto root = [&](double x) { return std::sqrt(std::max(0.0, (r - x) * (r + x))); };
     const auto arc = [&](double x) {  // antiderivative of sqrt(r^2 - x^2) (1 - slope x / L)
@@ -213,7 +213,7 @@ double within_ball(const Axis& a, const Axis& b, const Axis& c, double r) {
         const double across = r * cos;
         return 2 / c.side * (1 - c.slope * z / c.side) * across * within_disk(a, b, across);
     };
-    // Near a cut the integrand is a fractional power, which tanh-sinh quadrature handles well.
+    // Near `cuts` the integrand has fractional powers, which tanh-sinh quadrature handles well.
     thread_local boost::math::quadrature::tanh_sinh<double> rule;
     double sum = 0;
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {

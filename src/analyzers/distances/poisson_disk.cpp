@@ -12,8 +12,8 @@
 //
 // The largest empty ball decides whether the set is maximal (empty_ball.hpp). The last gaps that a
 // generator should fill may be lost in rounding, so a largest empty ball with a radius of at most R
-// (1 + tolerance) is accepted. The centre of a disk in such a gap can move only by about the
-// tolerance times R.
+// (1 + tolerance) is accepted. Such a gap is tiny: the centre of a disk in it can move only by
+// about the tolerance times R.
 //
 // Shape   points n x d, d <= 32.
 // Cost    that of `coverage`; 10^6 points in 2-D take 3 s on one core. Counting conflicts takes
@@ -130,7 +130,7 @@ Conflicts find_conflicts(const PointSet& points, const Distances& distances,
     return found;
 }
 
-/// Message for a failed expectation.
+/// Sentence on why the set is not a maximal Poisson-disk set of radius r.
 std::string complaint(double r, const Conflicts& conflicts, const EmptyBall& ball, bool maximal) {
     std::vector<std::string> reasons;
     if (conflicts.count > 0)

@@ -59,7 +59,7 @@ constexpr Param<double> shortest_edge{
         "corner of four cells"};
 
 constexpr std::size_t fewest_neighbors = 3;
-constexpr std::size_t most_neighbors = 16;  ///< the last class includes larger valences
+constexpr std::size_t most_neighbors = 16;  ///< the last of `valences` also counts larger ones
 
 double length_of(const Vec2& v) { return std::sqrt(v.x * v.x + v.y * v.y); }
 
@@ -147,7 +147,7 @@ Sums sum_up(const PlanarSites& sites, double unit, double shortest, const RunCon
     std::vector<Sums> parts(block_count(sites.count(), size));
     for_each_block(run, sites.count(), size, [&](const Block& b) {
         VoronoiCell cell;
-        Sums sums;  // local, since writes to shared memory nearby would slow each other down
+        Sums sums;  // local, to avoid false sharing between threads
         for (std::uint64_t i = b.first; i < b.last; ++i) {
             if (i % 64 == 0) run.check_stop();
             cells.cut(static_cast<std::size_t>(i), cell);

@@ -141,7 +141,7 @@ struct Named {
     Values values;
 };
 
-/// @throws Error(usage) naming the integrand
+/// Parses the spec of an integrand. @throws Error(usage) with the name of the integrand
 Named named(const std::string& text) {
     std::string where = "--integrand";
     try {
@@ -274,7 +274,7 @@ struct Fault {
 /// Sums over one block, or over all blocks.
 struct Sums {
     std::vector<Tally> weighted;  ///< f / p, for each integrand
-    std::vector<Tally> uniform;   ///< measure x f at uniform points; if weighed, measure x f^2 / p
+    std::vector<Tally> uniform;   ///< measure * f at uniform points; if weighed, measure * f^2 / p
     Outside outside;
     Fault fault;
 
@@ -294,11 +294,11 @@ struct Uniform {
         none,
         remade,       ///< uniform points, made from the coordinates of the given points in the cube
         as_they_are,  ///< the given points; their density is constant
-        weighed,      ///< no uniform points; their variance follows from sums of measure x f^2 / p
+        weighed,      ///< none are made: their variance is computed from measure * f^2 / p
     };
     How how = none;
-    double measure = 0;  ///< measure of the domain on which these points are uniform
-    /// Estimate of the measure from the points' weights, if the measure is not known.
+    double measure = 0;  ///< measure of the domain's support, known or estimated
+    /// Estimate of `measure` from the points' weights, if it is not known.
     std::optional<Tally> found = {};
 };
 
@@ -406,7 +406,7 @@ double ratio_of(double uniform, double importance) {
     return uniform == importance ? 1 : uniform / importance;  // avoids 0 / 0 if f is constant
 }
 
-/// Variance of measure x f at uniform points, from the mean of measure x f^2 / p.
+/// Variance of measure * f at uniform points, from the mean of measure * f^2 / p.
 double variance_by_weights(const Tally& importance, const Tally& squares) {
     const double n = static_cast<double>(importance.count());
     const double square = importance.mean() * importance.mean();
@@ -545,7 +545,7 @@ void replicate(Report& mean, const std::string& name, std::span<const Report> se
     if (squares.count() > 0) mean.add("rms_error", std::sqrt(squares.mean()));
 }
 
-/// Adds the absolute error of a single set, whose spread is unknown.
+/// Adds the root mean square error for a single set: the absolute value of its error.
 void combine_one(Report& mean) {
     for (auto& entry : mean.entries()) {
         auto* group = std::get_if<Report>(&entry.value);

@@ -36,8 +36,8 @@ class RegionView {
     const Domain& domain_;
     bool finite_;                ///< whether the support has a finite measure
     std::optional<Box> box_;     ///< bounding box, if the domain fills it
-    std::optional<Frame> axes_;  ///< frame of a hemisphere, whose axis is z
-    std::optional<Frame> pole_;  ///< frame of a distribution on the whole sphere, whose axis is z
+    std::optional<Frame> axes_;  ///< for a hemisphere: frame with its axis as z
+    std::optional<Frame> pole_;  ///< for the whole sphere: frame with the distribution's axis as z
 };
 
 }  // namespace stipple::analyzers

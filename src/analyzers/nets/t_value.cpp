@@ -69,12 +69,12 @@ std::size_t least_unequal(Probe& probe, const Combination& along, std::size_t mo
     return most;
 }
 
-/// R of all projections to the same number of coordinates, ordered by combination_number().
+/// R (see the top) of all projections to some number of coordinates, by combination_number().
 using Unequal = std::vector<std::size_t>;
 
-/// Projections, all of the same size, whose t is that of the whole set.
+/// Projections of one size that have the same t as the whole set.
 struct Worst {
-    std::size_t unequal = 0;  ///< common R of these projections
+    std::size_t unequal = 0;  ///< R (see the top) of each of them
     std::vector<Combination> along = {};
 };
 
@@ -83,7 +83,7 @@ class Search {
     Search(const Net& net, const std::optional<Matrices>& matrices)
         : net_(net), matrices_(matrices) {}
 
-    /// R of the projections of each size up to `largest`; for size 0, m + 1.
+    /// R (see the top) of the projections of each size up to `largest`; m + 1 for size 0.
     [[nodiscard]] std::vector<Unequal> projections(std::size_t largest,
                                                    const RunContext& run) const {
         double total = 0;
@@ -99,7 +99,7 @@ class Search {
         return found;
     }
 
-    /// Worst projections of all sizes, given R of all projections up to some size.
+    /// Projections with the smallest R, of any size; `known` has R of all those up to some size.
     [[nodiscard]] Worst worst(const std::vector<Unequal>& known, const RunContext& run) const {
         const Worst small = worst_of(known);
         const auto levels = levels_above(known.size() - 1, small.unequal);
@@ -169,7 +169,7 @@ class Search {
     [[nodiscard]] Worst unequal(const Level& level, const RunContext& run) const {
         Worst found{.unequal = level.digits};
         std::mutex finding;
-        // The ways to cut differ in the number of digits of the first coordinate.
+        // The first coordinate gets 1 to `ways` of the digits; the others share the remaining ones.
         const std::size_t ways = level.digits - level.size + 1;
         for_each(level.size, ways, run,
                  [&](const Combination& along, std::size_t way, auto& probe) {
@@ -186,7 +186,7 @@ class Search {
 
     using Body = std::function<void(const Combination& along, std::size_t way, Probe& probe)>;
 
-    /// Calls body for all choices of `size` coordinates and each of `ways` to cut, on all threads.
+    /// Calls body for all choices of `size` coordinates, each with way < `ways`, on all threads.
     void for_each(std::size_t size, std::size_t ways, const RunContext& run,
                   const Body& body) const {
         const std::uint64_t count = binomial(net_.dimension, size) * ways;
@@ -228,7 +228,7 @@ Net checked_net(const PointSet& points, std::int64_t b, const RunContext& run) {
     const std::size_t m = exact_logarithm(points.count(), static_cast<std::uint64_t>(b));
     const auto n = static_cast<double>(points.count());
     const auto d = static_cast<double>(points.dimension());
-    // Arrays of n indices per counting thread.
+    // Number of arrays of n indices that each thread needs for counting.
     const double cuts = std::min(d, static_cast<double>(m)) + 2;
     run.need_memory(4 * n * (d + cuts * run.thread_count()), "the t-value");
     return equidistribution::net_of(points, static_cast<std::uint32_t>(b), m, run);

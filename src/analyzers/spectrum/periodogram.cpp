@@ -153,14 +153,14 @@ constexpr std::uint64_t buffered_points = std::uint64_t{1} << 20;
 /// Number of points for which the transform is planned if a set has more than buffered_points.
 constexpr std::uint64_t most_points = std::uint64_t{1} << 30;
 
-/// The sums sum_j s_j and sum_j s_j^2.
+/// Sums of the weights and of their squares.
 struct Strengths {
     double sum = 0;
     double squares = 0;
 };
 
-/// Sums the weights of points that arrive in blocks, possibly in several processes. Partial sums
-/// are merged in the order of the grids.
+/// Sums the weights of points that arrive in blocks, possibly in several processes. The sums of
+/// blocks are added by ScaledGridSum, so that their order does not matter.
 class StrengthSums {
   public:
     void add(double strength) {
@@ -184,7 +184,7 @@ class StrengthSums {
         sum_.pack(to);
         squares_.pack(to);
     }
-    /// The number of points added to this object must be a multiple of `block`.
+    /// Requires that a multiple of `block` points have been added to this object.
     void merge(Unpacker& from) {
         if (points_ > 0) close();
         sum_.merge(from);
@@ -272,7 +272,7 @@ void summarize(Report& report, const Grid& power, std::size_t sets, const Values
     const double regular = report.number("regular_nyquist");
     const double unit = options[normalize] ? 2 * regular : 1;
     const double error = report.number("tolerance");
-    const double least = error * error;  // smaller powers may be due to rounding
+    const double least = error * error;  // powers below this may be due to rounding
     const char* unit_name = options[normalize] ? "cycles a mean distance" : "cycles a unit length";
     Report::Curve frequency;
     Report::Curve anisotropy;
@@ -389,7 +389,7 @@ class Summation final : public SharedAccumulator {
     }
 
     void check_options() const {
-        // Direct sums have float64's accuracy, whatever the tolerance.
+        // The tolerance does not affect direct sums, which are as accurate as float64.
         if (options_[method] != "direct" && options_[tolerance] < floor_of_floats)
             fail(ErrorKind::usage,
                  "--tolerance: {} is below {}, the limit of float64; --method direct is as exact "
@@ -409,8 +409,8 @@ class Summation final : public SharedAccumulator {
                                              : default_frequency(count, d_);
     }
 
-    /// Points of the unit cube, each followed by its strength times its window unless all of these
-    /// products are 1. Empty if `rows` can be used unchanged.
+    /// Points mapped to the unit cube, each followed by its weight times the window there, unless
+    /// all these products are 1. Empty if `rows` can be used unchanged.
     std::vector<double> changed_points(std::span<const double> rows) {
         std::vector<double> points;
         const std::size_t given = d_ + (weighted_ ? 1 : 0);
@@ -435,8 +435,8 @@ class Summation final : public SharedAccumulator {
         return points;
     }
 
-    /// @throws Error(input) for a strength whose square might underflow or overflow the sum. The
-    /// power does not depend on the scale of strengths.
+    /// @throws Error(input) for a weight whose square might underflow or overflow the sum; the hint
+    /// is to scale all weights, which does not change the power
     static void require_fitting(double strength, std::uint64_t index) {
         constexpr double least = 1e-100;
         constexpr double most = 1e100;
@@ -449,7 +449,7 @@ class Summation final : public SharedAccumulator {
                        index, format_number(strength), format_number(least), format_number(most));
     }
 
-    /// Whether note() is not needed: all points are in the unit cube, and not all are equal.
+    /// Whether no point needs note(): all are in the unit cube, and earlier points differ.
     [[nodiscard]] bool note_all(std::span<const double> rows) const {
         return cube_ && !all_equal_ && all_inside(rows);
     }
@@ -470,7 +470,7 @@ class Summation final : public SharedAccumulator {
         return weighted_ ? strengths_.total() : Strengths{n, n};
     }
 
-    /// Window at a point of the cube.
+    /// Value of the window at a point of the cube.
     [[nodiscard]] double faded(std::span<const double> point) const {
         double product = 1;
         if (hann_)
@@ -562,7 +562,7 @@ class Summation final : public SharedAccumulator {
     std::unique_ptr<DirectSummation> direct_;
 };
 
-/// Number of points per block of the sums, each with its own grid; small sets are not shared.
+/// Number of points summed on one grid, for Sharing::grain; a small set is not divided.
 std::uint64_t grain(const Arrival& arrival, const Values& options) {
     if (options[method] == "direct")
         fail(ErrorKind::usage, "periodogram: ranks can share --method nufft only; use one process");

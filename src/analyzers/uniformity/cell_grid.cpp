@@ -22,7 +22,7 @@ std::size_t odd_prime_near(double x, std::size_t cap) {
     return nearer && above <= cap ? above : below;
 }
 
-/// Number of points whose default grid is used for n points.
+/// Number of points that selects the default grid: n or, for large sets, n rounded down.
 std::uint64_t rounded_count(std::uint64_t n) {
     std::uint64_t rounded = n;
     for (const std::uint64_t count : grid_counts)
@@ -87,7 +87,7 @@ CellGrid default_grid(std::uint64_t n, std::size_t axes) {
     const double target =
         std::min(2 * real_power(static_cast<double>(count), 0.4), static_cast<double>(cap));
     std::size_t cut = 1;     // number of axes to cut
-    std::size_t others = 1;  // 3^(cut - 1) cells, reserved for the axes after the first
+    std::size_t others = 1;  // 3^(cut - 1): fewest cells on the other axes to cut
     while (cut < std::min(axes, most_cut_axes) && static_cast<double>(9 * others) <= target) {
         ++cut;
         others *= 3;
@@ -146,7 +146,7 @@ std::vector<Estimate> cell_masses(const Domain& domain, const CellGrid& grid, bo
     });
     Estimate sum;
     for (const Estimate& mass : masses) sum += mass;
-    // Exact probabilities still have a rounding error each.
+    // Each probability also has a rounding error, which its `error` does not include.
     const double rounding =
         std::numeric_limits<double>::epsilon() * (64 + 4 * static_cast<double>(masses.size()));
     if (std::abs(sum.value - 1) > sum.error + rounding)

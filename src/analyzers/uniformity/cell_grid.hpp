@@ -20,8 +20,8 @@ using CellGrid = std::vector<std::size_t>;  ///< number of cells along each axis
 inline constexpr std::uint64_t fewest_expected = 5;
 inline constexpr std::uint64_t most_cells = 100'000'000;
 
-/// A set uses the default grid for the largest of these numbers of points that is not above its own
-/// number; sets with fewer points than the first have their own grids.
+/// A set uses the default grid of the largest of these numbers that is not above its number of
+/// points; a set below the first of them uses the default grid of its own number.
 inline constexpr std::uint64_t grid_counts[] = {1U << 20, 1U << 24, 1U << 28};
 
 /// Largest number of axes that a default grid cuts.

@@ -95,7 +95,7 @@ constexpr Param<Choice> combination{
 
 constexpr std::uint64_t held_points = grid_counts[0];  ///< points kept until the grid is known
 
-/// Gaps of a domain's density. No point can be in a gap, whatever the probability of the cell.
+/// Gaps of a domain's density. A point in a gap is impossible, even in a cell of probability > 0.
 class Gaps {
   public:
     explicit Gaps(DomainPtr domain) : domain_(std::move(domain)) {
@@ -200,8 +200,8 @@ class Tally {
     std::vector<std::uint64_t> shifted_;
 };
 
-/// Tails of a statistic, and of the smallest and largest value that it may have within the errors
-/// of the cells' probabilities.
+/// Tails of a statistic (found), and of the smallest and largest value that the errors of the
+/// cells' probabilities allow.
 struct Judged {
     Tails found;
     Tails least;

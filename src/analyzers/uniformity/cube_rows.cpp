@@ -23,7 +23,7 @@ void spread_outcomes(const Domain& domain, std::span<double> cubes, std::uint64_
                      const RunContext& run) {
     if (!domain.has_outcomes()) return;
     const std::size_t axes = domain.cube_dimension();
-    constexpr std::uint64_t stream = std::uint64_t{1} << 35;  // for axis 0; unused by generators
+    constexpr std::uint64_t stream = std::uint64_t{1} << 35;  // of axis 0; not used by generators
     for_each_block(silent(run), cubes.size() / axes, 4096, [&](const Block& block) {
         Box cell{std::vector<double>(axes, 0), std::vector<double>(axes, 1)};
         for (std::uint64_t i = block.first; i < block.last; ++i)

@@ -55,7 +55,7 @@ std::vector<double> times(const std::vector<double>& row, const Scaled& a) {
     return out;
 }
 
-/// Transition matrix of Marsaglia, Tsang and Wang, for k cells on either side and the remainder h.
+/// Transition matrix of Marsaglia, Tsang and Wang for n D = k - h, k an integer, 0 < h <= 1.
 Scaled transitions(std::size_t k, double h) {
     const std::size_t m = 2 * k - 1;
     Scaled a{m, std::vector<double>(m * m), 0};

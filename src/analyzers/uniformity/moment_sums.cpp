@@ -24,7 +24,7 @@ MomentSums::MomentSums(std::vector<double> about, std::uint64_t first, std::span
         double most = 0;
         for (std::size_t at = k; at < rows.size(); at += d)
             most = std::max(most, std::abs(rows[at] - about_[k]));
-        constexpr int usual = 128;  // powers of numbers between 2^-128 and 2^128 need no unit
+        constexpr int usual = 128;  // sixth powers of 2^-128 to 2^128 fit doubles
         const int exponent = most > 0 && std::isfinite(most) ? std::ilogb(most) : 0;
         if (std::abs(exponent) > usual) unit_[k] = std::ldexp(1, std::clamp(exponent, -1021, 1021));
     }
@@ -133,7 +133,7 @@ void MomentSums::merge(Unpacker& from) {
     }
 }
 
-/// Central moments of column k, from those about c in the column's unit: m_p = E (z - e)^p, e = E z.
+/// Adds the moments of column k and their errors, from its sums of powers of (x - about) / unit.
 void MomentSums::column(const Node& all, std::size_t k, SampleAndErrors& out) const {
     const auto n = static_cast<double>(count_);
     double raw[powers + 1] = {1};
@@ -170,7 +170,7 @@ void MomentSums::column(const Node& all, std::size_t k, SampleAndErrors& out) co
         flat ? 0 : root(g6 - 3 * g1 * g5 - 6 * g4 + 2.25 * g1 * g1 * g4 + 8.75 * g1 * g1 + 9));
 }
 
-/// Covariance of two columns. Its error follows from E (x - mean)^2 (y - mean)^2.
+/// Adds the covariance of columns i and j. Its error follows from E (x - mean)^2 (y - mean)^2.
 void MomentSums::cross(const Node& all, std::size_t i, std::size_t j, SampleAndErrors& out) const {
     const auto n = static_cast<double>(count_);
     const std::size_t at = pair(i, j);

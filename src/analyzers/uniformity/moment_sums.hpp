@@ -2,8 +2,8 @@
 //
 // Sums of powers of rows of numbers, and the moments of a sample that follow from them.
 //
-//     S_p = sum z^p, p = 1..6, with z = (x - c) / u, and for each pair of columns sum z^p z'^q, p, q
-//     in {1, 2}; c is near the mean, so that central moments lose little by cancellation, and u a
+//     S_p = sum z^p, p = 1..6, with z = (x - c) / u, and for each pair of columns sum z^p z'^q, p,
+//     q in {1, 2}; c is near the mean, so that central moments lose little by cancellation, and u a
 //     power of two, 1 unless the sixth powers of x - c could be too large or too small for doubles.
 //
 // A batch is summed by blocks; the blocks' sums are added in order with compensation for rounding
@@ -44,8 +44,8 @@ struct SampleAndErrors {
 
 class MomentSums {
   public:
-    /// Sums powers of (x - about) / unit, with one value of each per column; `first` is the first
-    /// batch's index. The units suit `rows`; without rows they are 1.
+    /// Sums powers of (x - about) / unit for each column; `first` is the index of the first batch.
+    /// Units are chosen for the size of the numbers in `rows`; without rows they are 1.
     explicit MomentSums(std::vector<double> about, std::uint64_t first = 0,
                         std::span<const double> rows = {});
 

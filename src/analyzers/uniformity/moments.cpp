@@ -159,7 +159,7 @@ class Summation final : public SharedAccumulator {
     }
 
   private:
-    /// Starts the sums, about means of the set's first batch and of its image on the cube.
+    /// Starts the sums of powers about the means of the first batch, and of its image on the cube.
     void begin(std::span<const double> rows, std::span<const double> cubes) {
         const std::uint64_t batch = first_ / arrival_batch(domain_->dimension());
         raw_.emplace(means_of(rows, domain_->dimension()), batch, rows);

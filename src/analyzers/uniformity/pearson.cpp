@@ -42,7 +42,7 @@ double most_even_chance(std::uint64_t n, std::uint64_t groups) {
     return std::min(1.0, exponential(ways + counts - static_cast<double>(n) * logarithm(k)));
 }
 
-/// Collects q_1, q_2, ... of pearson.hpp, down to 1e-30. Groups must be in order of expectation.
+/// Collects q_1, q_2, ... (see pearson.hpp) down to 1e-30, for groups of rising expectation.
 class ModalProbabilities {
   public:
     explicit ModalProbabilities(std::uint64_t n) : whole_(static_cast<double>(n)), rest_(whole_) {}
@@ -64,7 +64,7 @@ class ModalProbabilities {
     std::vector<double> found_;
 };
 
-/// Cells with a probability above 0, the least probable first; other points are impossible.
+/// Cells whose probability may exceed 0, least probable first; points elsewhere are impossible.
 std::vector<std::uint64_t> possible_cells(std::span<const std::uint64_t> counts,
                                           std::span<const Estimate> masses, Fit& found) {
     std::vector<std::uint64_t> cells;
@@ -146,7 +146,7 @@ Fit fit_equal(std::span<const std::uint64_t> counts, std::uint64_t n, const RunC
         const std::uint64_t last = g + 1 < found.groups ? first + size : total;
         std::uint64_t observed = 0;
         for (std::uint64_t c = first; c < last; ++c) observed += counts[c];
-        // K (O - E) is an integer, where K = `total` is the number of cells.
+        // total * (observed - expected) is an integer, as all `total` cells are equally probable.
         const auto scaled = static_cast<double>(static_cast<Int128>(observed) * total -
                                                 static_cast<Int128>(last - first) * n);
         const double expected = static_cast<double>(n) *
@@ -304,7 +304,7 @@ class EqualCounts {
             weights_[k] = weights_[k + 1] * ((count - static_cast<double>(zero - k - 1)) / count);
     }
 
-    /// Sum of the weights of all counts of `groups` groups whose e have the sum `rest` < `groups`.
+    /// Sum of the weights over all counts of `groups` groups with sum e = `rest`, below `groups`.
     double sum(std::int64_t groups, std::int64_t rest) {
         if (rest > squares_) return 0;  // the sum of squares of integers is at least their sum
         reach_ = root(groups * squares_) + 1;
@@ -327,7 +327,7 @@ class EqualCounts {
         return static_cast<std::size_t>((sum + reach_) * (squares_ + 1) + squares);
     }
 
-    /// Adds a group to the sums; drops sums that cannot become `rest` with `left` more groups.
+    /// Adds one of the `left` remaining groups; drops sums that these cannot turn into `rest`.
     [[nodiscard]] std::vector<double> with_group(const std::vector<double>& from, std::int64_t left,
                                                  std::int64_t rest) const {
         std::vector<double> to(table_size());
@@ -346,7 +346,7 @@ class EqualCounts {
 
     std::int64_t squares_;
     std::int64_t least_;
-    std::int64_t reach_ = 0;  ///< bound of the absolute sum of e
+    std::int64_t reach_ = 0;  ///< bound of |sum of e|
     std::vector<double> weights_;
 };
 
@@ -407,7 +407,7 @@ class UnequalCounts {
 
   private:
     std::vector<double> expected_;
-    std::vector<double> behind_;  ///< sum of the expectations of later groups
+    std::vector<double> behind_;  ///< for each group, the sum of later groups' expectations
 };
 
 }  // namespace
@@ -422,7 +422,7 @@ std::optional<double> exact_lower_tail(double statistic, std::uint64_t n, std::u
     EqualCounts counts(m, static_cast<std::int64_t>(squares + 1e-6));
     const double sum =
         counts.sum(static_cast<std::int64_t>(groups), static_cast<std::int64_t>(n % groups));
-    // ln(n! / (K^n m!^K m^r)) by ln n! = n ln n - n + log_excess(n).
+    // Logarithm of n! / (groups^n m!^groups m^rest), from ln n! = n ln n - n + log_excess(n).
     const auto points = static_cast<double>(n);
     const double ways = log_excess(points) - k * log_excess(static_cast<double>(m)) +
                         points * log_1p(rest / (points - rest)) - rest;

@@ -50,7 +50,7 @@ struct Fit {
     double mass_error = 0;         ///< sum of the errors of the cells' probabilities
     double statistic_error = 0;    ///< largest error of the statistic due to those errors
     double most_even = 0;          ///< probability of the smallest possible statistic; 0: unknown
-    std::vector<double> modal_probabilities = {};  ///< q_1, q_2, ..., down to negligible ones
+    std::vector<double> modal_probabilities = {};  ///< q_1, q_2, ... (see the top) down to 1e-30
     std::uint64_t points = 0;
     std::vector<double> expected = {};  ///< expectations of groups, if few and unequal
     bool equal = false;                 ///< whether all groups have the same expectation
@@ -65,7 +65,7 @@ Fit fit_equal(std::span<const std::uint64_t> counts, std::uint64_t n, const RunC
 Fit fit_masses(std::span<const std::uint64_t> counts, std::span<const Estimate> masses,
                std::uint64_t n, const RunContext& run);
 
-/// Probabilities, under the hypothesis, of a statistic at least as large and at most as large.
+/// Probabilities, under the hypothesis, of a statistic >= (upper) and <= (lower) the given one.
 struct Tails {
     double upper = 1;
     double lower = 1;
