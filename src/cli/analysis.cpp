@@ -36,7 +36,7 @@ constexpr std::array<FileOption, 3> file_options = {
 // Small sets are collected and measured in parallel, a few megabytes at a time. Sets with at least
 // `large` coordinates are measured immediately.
 constexpr std::size_t large = std::size_t{1} << 18;
-constexpr std::size_t together = std::size_t{1} << 20;  // coordinates of all collected sets
+constexpr std::size_t together = std::size_t{1} << 20;  // limit for coordinates of collected sets
 constexpr std::size_t most_waiting = std::size_t{1} << 12;
 
 /// Adds another set's time, source and count to a mean.
@@ -136,8 +136,8 @@ void Analysis::check_side_files(const std::string& output) const {
     }
 }
 
-/// Warns of distances that mix units, in a box with sides of different length, or that cross the
-/// faces of a box that was computed from the points themselves.
+/// Warns if distances mix units, because the sides of the box differ in length, or if they cross
+/// the faces of a box that was computed from the points themselves.
 void Analysis::warn_of_metric() const {
     const auto* metric = asked_.try_find("metric");
     if (metric == nullptr) return;

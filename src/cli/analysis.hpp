@@ -27,7 +27,7 @@ struct SetOrigin {
     std::optional<std::size_t> number = {};  ///< index, if the source has several sets
     std::string kind = {};  ///< sets of equal kind are averaged; empty if not yet known
     std::vector<std::string> columns = {};  ///< names of the coordinates, if known
-    bool several = false;                   ///< whether there are other sets
+    bool several = false;                   ///< whether other sets of the command are known
 };
 
 /// Key for averaging: how the set was made, except for its seed; if that is unknown, the number of
@@ -58,7 +58,7 @@ class Analysis {
     /// immediately, with all threads and all memory.
     void add(PointSet points, SetOrigin origin);
 
-    /// Measures a set that arrives in blocks. Sets an empty origin.kind if averaging needs it.
+    /// Measures a set that arrives in blocks. When averaging, sets origin.kind if it is empty.
     void add(const Arrival& arrival, const NextRows& next, SetOrigin& origin,
              const Provenance& made, const RunContext& run);
 
@@ -141,7 +141,7 @@ class Analysis {
     std::vector<Group> groups_;  ///< one per measurement, if averaging
     std::map<std::string, std::size_t> group_indices_;
     std::vector<Waiting> waiting_;
-    std::size_t numbers_ = 0;  ///< sum of n d over the sets in waiting_
+    std::size_t numbers_ = 0;  ///< number of coordinates of all sets in waiting_
 };
 
 }  // namespace stipple::cli

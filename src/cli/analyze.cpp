@@ -52,8 +52,8 @@ bool is_part(const std::string& key, const std::string& wanted) {
     return fmt::format(".{}.", key).find(fmt::format(".{}.", wanted)) != std::string::npos;
 }
 
-/// The results that a word of `wanted` names, entirely or by a part between dots; value[0] selects
-/// one number of a list.
+/// The results whose keys are words of `wanted`, or contain one between dots; the word value[0]
+/// selects one number of a list.
 Report picked(const Report& report, const std::vector<std::string>& wanted,
               const std::string& group = {}) {
     Report kept;
@@ -149,8 +149,8 @@ class AnalyzeCall {
         return !several_analyzers() && only().analyzer().accumulate && !request_.rescale;
     }
 
-    /// Checks that --weights applies to the sources of points; reports files that are given twice,
-    /// whose sets are not independent. @throws Error(usage)
+    /// Checks that --weights applies to the sources of points. Warns if files to be averaged are
+    /// given twice, since their sets are not independent. @throws Error(usage)
     void require_sources() const {
         for (auto i = inputs_.begin(); request_.averaged() && i != inputs_.end(); ++i)
             if (std::find(inputs_.begin(), i, *i) != i)
@@ -392,8 +392,8 @@ class AnalyzeCall {
             if (&each->analyzer() == &analyzer) keys_[each.get()].push_back(key);
     }
 
-    /// Checks keys, now that results are known, that were accepted only because a word in capitals,
-    /// such as OUTPUT, matches any word. @throws Error(usage)
+    /// Checks --keys against the results. The earlier check accepts any word for a placeholder of a
+    /// known key, such as OUTPUT. @throws Error(usage)
     void require_keys() const {
         for (const auto& [analysis, keys] : keys_)
             for (const std::string& text : keys) {
@@ -481,7 +481,7 @@ class AnalyzeCall {
     [[nodiscard]] bool interrupted() const { return session_.run().stop.stop_requested(); }
 
     /// Prints the results that analyses returned after a stop request: the best found so far.
-    /// Means, which would lack sets, and files are not written: throws instead.
+    /// Throws instead for means, which would lack sets, for output to a file, and on several ranks.
     int print_what_is_known() {
         if (request_.averaged() || path_ != "-" || ranks_.size() > 1) session_.run().check_stop();
         print();

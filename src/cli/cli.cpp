@@ -18,7 +18,7 @@ namespace stipple::cli {
 namespace {
 
 int exit_code(ErrorKind kind) {
-    constexpr std::array codes = {2, 3, 4, 5, 130};  // usage, input, io, limit, cancelled
+    constexpr std::array codes = {2, 3, 4, 5, 130};  // of usage, input, io, limit, cancelled
     return codes.at(static_cast<std::size_t>(kind));
 }
 
@@ -50,14 +50,14 @@ int dispatch(const Arguments& arguments) {
     const int code = work_on(*request, session);
     try {
         session.tell_warnings();
-    } catch (const std::bad_alloc&) {  // output files are already in place
+    } catch (const std::bad_alloc&) {  // no failure: all output is written
         say("stipple: out of memory for its warnings\n");
     }
     return code;
 }
 
-/// Prints the error that ends the program in one line, except if another process does. Returns the
-/// exit code.
+/// Prints the error that ends the program in one line, unless another process prints it. Returns
+/// the exit code.
 int end_with(std::string_view verb, const Error& error) {
     const Error cause = shared_failure(verb, error);
     const std::string what = cause.what();
@@ -80,8 +80,8 @@ int run_verb(int argc, char** argv) {
     }
 }
 
-/// Terminate handler: reports lack of memory where no exception can be caught, as while another
-/// error is reported, and in destructors of JSON values. Otherwise aborts.
+/// Terminate handler: reports a lack of memory that no handler can catch, such as in destructors of
+/// JSON values or while another error is reported. Otherwise aborts.
 [[noreturn]] void end_terminated() {
     try {
         if (const auto caught = std::current_exception()) std::rethrow_exception(caught);
@@ -96,7 +96,7 @@ int run_verb(int argc, char** argv) {
 }  // namespace
 
 int work_on(Request& request, Session& session) {
-    // The ranks must be joined before they compare the file.
+    // The ranks must be joined before read_parameter_file(), where they compare their files.
     if (request.parameters_file && is_shared(info_of(*request.verb).name))
         launched(request, session.run());
     read_parameter_file(request, session.run());

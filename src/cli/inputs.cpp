@@ -55,8 +55,8 @@ std::unique_ptr<io::PointStream> open_file(const std::string& path, const Source
     return io::open_points(path, options, run, format);
 }
 
-/// Records in a table the domain of its input columns, from --parameters, --bounds or --domain. The
-/// analyzer selects these columns later.
+/// Stores the domain of a table's input columns, from --parameters, --bounds or --domain, in its
+/// provenance. The analyzer selects these columns later.
 void take_told(PointSet& table, const Sources& from) {
     if (from.rescale) fail(ErrorKind::usage, "--rescale: these are rows of a table, not points");
     if (!!from.parameters + from.bounds.has_value() + from.domain.has_value() > 1)
@@ -122,7 +122,7 @@ DomainPtr input_domain(const Provenance& provenance, std::size_t dimension, cons
         return unit_cube(dimension);
     try {
         return parse_domain(domain, dimension, run);
-    } catch (const Error& e) {  // the domain is from the file, not from the command line
+    } catch (const Error& e) {  // an error of the file, which has the domain
         if (e.kind() != ErrorKind::usage) throw;
         throw Error(ErrorKind::input, fmt::format("its domain {}: {}", shown(domain), e.what()),
                     e.hint());
@@ -130,14 +130,14 @@ DomainPtr input_domain(const Provenance& provenance, std::size_t dimension, cons
 }
 
 Error named_error(const Error& e, const std::string& input, const std::string& hint) {
-    // An exceeded limit is an error of the file, too. Standard input needs no name.
+    // Errors of exceeded limits are named, too, except those of standard input.
     const bool of_file =
         e.kind() == ErrorKind::input || (e.kind() == ErrorKind::limit && input != "-");
     if (!of_file) return e;
     const std::string name = io::source_name(input);
     const std::string what = e.what();
     bool named = what.starts_with(name + ":");
-    // Errors in one of several joined files already name it.
+    // Errors in one of several joined files already name that file.
     for (const auto part : split(name, ','))
         named = named || what.starts_with(std::string(trim(part)) + ":");
     return {e.kind(), named ? what : fmt::format("{}: {}", name, what),

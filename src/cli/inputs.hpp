@@ -45,8 +45,8 @@ std::vector<PointSet> read_all(io::PointStream& stream, const Sources& from, con
 DomainPtr input_domain(const Provenance& provenance, std::size_t dimension, const Sources& from,
                        const RunContext& run);
 
-/// The same error, with the name of the input in front if the error is about the points and does
-/// not name it yet.
+/// The same error; if it is about the points and does not begin with the name of the input yet,
+/// with that name in front.
 /// @param hint for an error without its own
 Error named_error(const Error& e, const std::string& input, const std::string& hint);
 
@@ -60,8 +60,8 @@ auto naming(const std::string& input, const Work& work, const std::string& hint 
     }
 }
 
-/// Leaves out rows of a file with missing numbers, and applies --domain and --rescale, which maps
-/// the points' bounding box to the unit cube. Notes and returns the number of rows left out.
+/// Leaves out rows with missing numbers, and applies --domain and --rescale: that maps the points'
+/// bounding box to the unit cube. Notes and returns the number of rows left out.
 /// @throws Error(input) if no row remains, or the box is too wide for float64
 std::size_t place(PointSet& points, const std::string& input, const Sources& from,
                   const RunContext& run);

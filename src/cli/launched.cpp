@@ -65,13 +65,13 @@ Ranks& launched(const Arguments& arguments, const RunContext& run) {
                        "{}: an MPI launcher started {} processes, and this build has no MPI", verb,
                        started);
     joined() = join_ranks(run.stop, request_stop);
-    agreed(*joined(), [] {});  // a rank whose arguments are wrong reports that here
+    agreed(*joined(), [] {});  // throws if the arguments of another rank are wrong
     if (joined()->size() == 1)
         fail_with_hint(ErrorKind::usage, "start them by mpirun, or by srun --mpi=pmix",
                        "{}: a launcher started {} processes, which do not find each other by MPI",
                        verb, started);
     Arguments same = arguments;
-    // The bytes of points' files are compared, whatever their names.
+    // Names of files with points may differ: the files' bytes are compared.
     if (arguments.verb == Verb::analyze) std::ranges::fill(same.inputs, "FILE");
     if (const auto rank = unlike_rank(command_text(same), *joined()))
         fail_with_hint(ErrorKind::usage, "start all ranks by the same command",

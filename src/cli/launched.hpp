@@ -18,8 +18,8 @@ std::uint64_t launched_ranks();
 /// redirected to a file.
 bool is_launched();
 
-/// Whether another process reports errors for this one: if a launcher started several processes for
-/// a verb that ranks share. Processes of other verbs report their own errors.
+/// Whether rank 0 reports the errors of this process: if this is another rank of a verb that ranks
+/// share. Processes of other verbs report their own errors.
 bool is_mute(std::string_view verb);
 
 /// Whether ranks share the work of the verb.

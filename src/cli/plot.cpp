@@ -161,7 +161,7 @@ class Plot {
     }
 
   private:
-    /// Whether the sheet has more than one of points, reports and studies.
+    /// Whether the sheet mixes points, reports and studies.
     [[nodiscard]] bool several_kinds() const {
         return !reports_.empty() + !sets_.empty() + !means_.empty() > 1;
     }
@@ -391,8 +391,8 @@ class Plot {
         }
     }
 
-    /// Adds a heat map for each report of pairs of coordinates, with one colour scale for all;
-    /// false if --key names something else, or a report has no such numbers.
+    /// Adds a heat map for each report of pairs of coordinates, with one colour scale for all.
+    /// Returns false if --key names another result, or if a report has no numbers for pairs.
     bool add_pair_tables(std::span<const Measurement> reports) {
         std::vector<plot::PairTable> tables;
         double largest = 0;
@@ -539,7 +539,7 @@ class Plot {
         if (request_.letters) style_.letter = 0;
         if (medium_ == Medium::text) return plot::figure_as_text(frames_, style_, room_);
         const plot::Drawing drawing = plot::draw_figure(frames_, style_);
-        constexpr double pixel_bytes = 14;  // colours, coverage, and two copies for libpng
+        constexpr double pixel_bytes = 14;  // with coverage, and two copies for libpng
         if (medium_ == Medium::png)
             session_.run().need_memory(
                 pixel_bytes * drawing.width * drawing.height * style_.scale * style_.scale,
@@ -632,7 +632,7 @@ class Plot {
         frames_.push_back({.title = title, .draw = draw, .write = write, .bar = true});
     }
 
-    /// Measurements with a plane table, one for each input.
+    /// Measurements with a table, one for each input. @throws Error(input) unless sets are planar
     std::vector<Measurement> analyzed_tables() {
         auto found = analyzed();
         if (found.size() > most_frames) {
@@ -788,8 +788,8 @@ class Plot {
         return picture;
     }
 
-    /// Whether a coordinate has a logarithmic axis: by option in a histogram or in the plane, or as a
-    /// parameter.
+    /// Whether a coordinate has a logarithmic axis: by --x-scale or --y-scale or, if these are not
+    /// given or do not apply, because it is a parameter on a log scale.
     [[nodiscard]] bool is_log(std::size_t k, std::span<const PointSet* const> sets) const {
         const bool histogram = chart_ == "histogram" || sets[0]->dimension() == 1;
         if (histogram && style_.log_x) return *style_.log_x;

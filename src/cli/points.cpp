@@ -22,8 +22,8 @@
 namespace stipple::cli {
 namespace {
 
-/// Side files for --vector-output: the lattice of the provenance's options or, if a search found
-/// it, of the results of the search.
+/// Side files for --vector-output, with the lattice in the provenance: from its options or, if a
+/// search found the lattice, from the results of the search.
 std::vector<SideFile> vector_files(const Provenance& meta, const ConvertRequest& request,
                                    const RunContext& run) {
     const Generator* generator = generator_named(meta.generator);
@@ -50,11 +50,10 @@ std::vector<SideFile> vector_files(const Provenance& meta, const ConvertRequest&
     return sets.side_files();
 }
 
-/// Indices of the columns that are a warp's coordinates (its image's if `back`), found by the names
-/// in its domain. Empty if no column has such a name, or if the columns are exactly the
-/// coordinates, in order.
-/// @throws Error(input) if a name is missing, unless all are and `back` is false; with `back`, also
-/// if there are other columns
+/// Indices of the columns with the names of the coordinates in a warp's domain. Empty if these are
+/// all columns, in order; for a forward warp (`back` is false) also if no column has such a name.
+/// @throws Error(input) if only some of the names exist; with `back`, also if none exists, or if
+/// there are other columns
 std::vector<std::size_t> coordinates_by_name(const Spec& spec,
                                              const std::vector<std::string>& columns, bool back,
                                              const RunContext& run) {
@@ -247,7 +246,7 @@ int GenerateRequest::perform(Session& session) const {
     job.command = command_text(*this, std::move(left_out), job.request.seed);
     if (target.format->name != "csv") job.command += " --format " + target.format->name;
     produce(job, target, session.run());
-    // A search that was interrupted has written its best points, but scripts must not go on.
+    // An interrupted search has written its best points; the exit code lets scripts stop.
     return session.run().stop.stop_requested() ? 130 : 0;
 }
 

@@ -33,7 +33,7 @@ struct PendingSet {
     PointSet points;
     page::Set set;
     page::Input input;
-    /// All sets of the generator, of which this one is the first; null if it is the only one.
+    /// All sets of its generator, the first of them this one; null if the generator makes one set.
     std::shared_ptr<const GeneratedSets> others = {};
 };
 
@@ -121,7 +121,7 @@ class Reporter {
         for (std::size_t i = 0; i < pending_.size(); ++i) whole.sets.push_back(finished(i));
         whole.title = title_of(whole.sets);
         const bool fine = judge(whole.sets);
-        if (fine)  // after a failed condition, its message is enough
+        if (fine)  // no warnings beside failed conditions
             for (const page::Set& set : whole.sets) warn_of_nothing(set);
         session_.run().check_stop();
         if (output.write(json_ ? page::to_json(whole) : page::to_html(whole))) output.commit();
@@ -328,7 +328,7 @@ class Reporter {
         return measure.results ? "no result" : fmt::format("not known ({})", measure.left_out);
     }
 
-    /// Checks that some set has the key, or no results of its measure. @throws Error(usage)
+    /// @throws Error(usage) if no set has the key, although all have results of the key's measure
     static void require_known(const Check& check, const std::vector<page::Set>& sets) {
         const std::string& key = check.key;
         std::string hint;

@@ -45,7 +45,7 @@ struct Original {
     std::string path;                   ///< path that can be opened repeatedly
     std::shared_ptr<Spool> spool = {};  ///< owns the copy of a pipe
     Provenance meta = {};
-    const Format* format = nullptr;         ///< null: from the file's name and bytes
+    const Format* format = nullptr;         ///< null: determined by the file's name and bytes
     std::optional<std::size_t> width = {};  ///< numbers per point, if not determined by the bytes
     std::size_t sets = 0;                   ///< sets in the file; 0: determined by the bytes
     std::string picture = {};  ///< for a picture by a generator: the option that names it
@@ -126,8 +126,8 @@ bool take_plot(Original& original, std::string_view picture) {
     return true;
 }
 
-/// Reads provenance from a picture, a ply or svg file, or a sidecar file; returns false if there is
-/// none of these.
+/// Reads the provenance from a picture, a ply or svg file, or the file's sidecar; returns false for
+/// other files without a sidecar.
 bool take_carried(Original& original, std::string_view front, const RunContext& run) {
     std::optional<io::CarriedMeta> carried;
     const bool picture = front.starts_with(png_magic) || front.starts_with("%PDF-");
@@ -150,7 +150,7 @@ bool take_carried(Original& original, std::string_view front, const RunContext& 
     return true;
 }
 
-/// Opens the points of a file. One thread reads them, while the others make the points again.
+/// Opens the points of a file. One thread reads them, while other threads make the points again.
 /// @param options columns to read
 std::unique_ptr<io::PointStream> open_original(const Original& original, ReadOptions options,
                                                const RunContext& run) {
@@ -206,8 +206,8 @@ std::vector<std::string> shell_words(std::string_view command) {
     return words;
 }
 
-/// Arguments reconstructed from a provenance without a command: its first steps as --warp, up to an
-/// inverse or a truncation, which only later commands can have applied.
+/// Arguments reconstructed from a provenance without a command. Its steps become --warp up to the
+/// first inverse or truncation: those can only be steps of later commands.
 Arguments arguments_of(const Provenance& meta, const std::string& name, const RunContext& run) {
     if (!meta.shard.empty() || meta.efficiency < 1)
         fail(ErrorKind::input, "{}: its provenance has no command, which a part of a set needs",
@@ -326,7 +326,7 @@ std::uint64_t stream_version_of(const std::string& name) {
     return scramble ? scramble->stream_version : std::max(of(warps::all()), of(generators::all()));
 }
 
-/// Sentence about the first unit whose stream version is not the provenance's; empty if none.
+/// Sentence about the first unit with another stream version than the provenance; empty if none.
 std::string changed_rules(const Provenance& meta) {
     std::vector<std::string> units = {find_generator(meta.generator).name};
     for (std::string warp : meta.warps) {
@@ -488,7 +488,7 @@ class Reproducer {
                                 original_.name, option.first, option.second, STIPPLE_VERSION));
     }
 
-    /// Message if the provenance contradicts the points, which are equal; empty if it is right.
+    /// Message if the points are equal but the provenance contradicts them; empty if it is right.
     [[nodiscard]] std::string contradiction(const Provenance& made) const {
         const Provenance& told = original_.meta;
         const auto text = [](std::uint64_t number) { return std::to_string(number); };

@@ -28,7 +28,7 @@
 namespace stipple::cli {
 namespace {
 
-constexpr std::uint64_t most_units = 10'000'000;  // limit for studies without --yes
+constexpr std::uint64_t most_units = 10'000'000;  // limit for measurements without --yes
 
 /// The request, completed by the configuration file; typed options take precedence.
 StudyRequest with_config(const StudyRequest& typed, const RunContext& run) {
@@ -237,7 +237,7 @@ class Study {
             listen = [this](const StudyRow& row) { summary_.add(row); };
         const UnitRunner runner(sweep_, run);
         runner.require_options(run);
-        // A wide table needs no rows in a file.
+        // For a wide table, rows are only kept in the summary.
         StudyFile file(request_.wide ? "/dev/null" : path_, sweep_, table_, start, listen, run);
         if (start == StudyFile::Start::anew && !file.is_stream()) remove_old_summary();
         for (const auto& sentence : runner.before_warps()) session_.warn(sentence);
@@ -301,7 +301,7 @@ class Study {
             threads_of(ranks_, session_.run()) * static_cast<unsigned>(ranks_.size());
         const SweepRequest& r = sweep_.request();
         std::string takes = "about " + format_bytes(units * bytes);
-        constexpr std::uint64_t most_cells = 1'000'000;  // limit for a quick estimate
+        constexpr std::uint64_t most_cells = 1'000'000;  // limit for estimating the time
         if (sweep_.cells() <= most_cells)
             takes +=
                 fmt::format(" and {} on {} {}", long_time(WorkQueue(sweep_).seconds_left() / cores),

@@ -53,7 +53,7 @@ std::string filled(std::string_view text, std::size_t columns, std::size_t inden
     bool blank = false;  // a blank precedes the next word
     for (std::size_t at = 0; (at = text.find_first_not_of(" \n", at)) != text.npos;) {
         std::size_t end = std::min(text.find_first_of(" \n|", at), text.size());
-        if (end < text.size() && text[end] == '|') ++end;  // a line may end after it
+        if (end < text.size() && text[end] == '|') ++end;  // a line may end after '|'
         const auto word = text.substr(at, end - at);
         const std::size_t letters = code_points(word).size() + (blank ? 1 : 0);
         if (!out.empty() && used + letters > columns) {

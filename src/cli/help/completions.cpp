@@ -75,7 +75,7 @@ Candidates values_of(const Option& option, const std::string& current = {}) {
     return in_list(std::move(kinds), current);
 }
 
-/// Result keys of the analyzers that a command names, without parts up to one in capitals (KIND).
+/// Result keys of the analyzers that a command names, from behind the last placeholder (KIND).
 Candidates keys_in(const std::string& command) {
     Candidates found;
     for (const UnitInfo& unit : units_of("analyzers"))
@@ -88,7 +88,7 @@ Candidates keys_in(const std::string& command) {
     return found;
 }
 
-/// Candidates for the end of a partly typed spec or, if `list`, list of specs such as
+/// Candidates for the end of a partly typed spec or, if `list`, of a list of specs such as
 /// "halton,sobol:scramble=ow".
 Candidates in_spec(const std::vector<UnitInfo>& units, const std::string& current, bool list) {
     const auto cut = current.find_last_of(",;:=");
@@ -168,7 +168,7 @@ Candidates option_names(Verb verb, const UnitInfo* unit) {
     return found;
 }
 
-/// Candidates for the value of the option `before`; nullopt for a flag, and if it is not an option.
+/// Candidates for the value of the option `before`; nullopt if it is a flag or not an option.
 std::optional<Candidates> values_behind(const std::vector<std::string>& words,
                                         const std::string& before, const std::string& current,
                                         Verb verb, const UnitInfo* unit) {
@@ -220,7 +220,7 @@ std::string complete(std::vector<std::string> words) {
         before = current.substr(0, equals);
         current.erase(0, equals + 1);
     }
-    const auto blank = current.rfind(' ');  // in a quoted generator with its options
+    const auto blank = current.rfind(' ');  // last blank of a quoted generator spec
     if (blank != std::string::npos && (before.starts_with("--generat") || words[0] == "study")) {
         prefix += current.substr(0, blank + 1);
         words = {"generate"};

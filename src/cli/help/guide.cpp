@@ -61,7 +61,7 @@ std::string row_as_text(std::string row) {
     return out;
 }
 
-/// Plain text of the page about other packages, or of a section.
+/// Plain text of the page about other packages, or of one of its sections.
 std::string plain_peers(std::string_view markdown) {
     std::string text;
     for (const auto line : split(markdown, '\n')) {

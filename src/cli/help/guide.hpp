@@ -22,7 +22,7 @@ struct CompressedText {
     std::size_t size;  ///< bytes of the decompressed text
 };
 
-/// All other pages: for each, a byte 1, a line with its name, and its text.
+/// All pages except those of verbs: for each, a byte 1, a line with the page's name, and its text.
 CompressedText compressed_topics();
 
 /// All pages except those of verbs, sorted by name.
@@ -37,7 +37,7 @@ struct Topic {
 
 const std::vector<Topic>& topics();
 
-/// Topics under a heading of the guide's index, in its order.
+/// Topics under a heading of the guide's index, in the order of the index.
 struct TopicGroup {
     std::string heading;
     std::vector<const Topic*> topics;

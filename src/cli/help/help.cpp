@@ -227,7 +227,7 @@ HelpPage page_of_verb(const VerbInfo& info, HelpPage::Style style) {
     return page;
 }
 
-/// Points of a generator with quick options, or their image under warps; nullopt on failure.
+/// Points of a generator with options for a short run, mapped by the warps; nullopt on failure.
 std::optional<PointSet> sample_of(const char* generator, std::uint64_t count, std::size_t dimension,
                                   std::vector<Spec> warps) {
     const Generator& made_by = find_generator(generator);
@@ -311,7 +311,7 @@ HelpPage page_of_topic(const Topic& topic) {
     return page;
 }
 
-/// "star discrepancy" or "star_discrepancy" as the name of a unit or topic.
+/// Replaces blanks and underscores by hyphens, so that "star_discrepancy" names a unit.
 std::string hyphenated(std::string name) {
     std::ranges::replace(name, ' ', '-');
     std::ranges::replace(name, '_', '-');
@@ -339,7 +339,7 @@ std::string help_of_word(const std::string& name) {
         if (unit == nullptr) continue;
         if (const VerbInfo* info = find_verb(kind.verb))
             return found + (found.empty() ? "" : "\n") + page_of_unit(*info, *unit).text();
-        // Formats, such as csv, have no verb, but a common topic.
+        // Formats, such as csv, have no verb; one topic is about all of them.
         if (const Topic* topic = find_topic(kind.name))
             return filled_page(topic->text, text_columns());
     }

@@ -17,7 +17,7 @@ namespace {
 
 /// Lists each unit in one or two lines, by families.
 std::string list_text(const std::vector<Kind>& kinds) {
-    constexpr std::size_t names = 24;  // columns for a name with its blanks
+    constexpr std::size_t names = 24;  // columns before a unit's summary
     const std::size_t columns = text_columns();
     std::string text;
     for (const Kind& kind : kinds) {

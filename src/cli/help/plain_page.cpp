@@ -43,8 +43,8 @@ std::string quoted_code(std::string_view code) {
     return code.find_first_of(" \n") == code.npos ? std::string(code) : fmt::format("'{}'", code);
 }
 
-/// Length of the emphasised words, `*words*`, that a text begins with; 0 if it begins otherwise,
-/// for example with the sign of a product.
+/// Length of the emphasised words, `*words*`, at the front of a text; 0 if there are none, also if
+/// the text begins with the sign of a product.
 std::size_t emphasis_at(std::string_view text) {
     const auto end = text.find('*', 2);
     const bool marked = text.starts_with('*') && end != text.npos &&

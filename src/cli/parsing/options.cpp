@@ -97,7 +97,7 @@ void take(std::vector<std::uint64_t>& field, const CommonOption& common, const s
     field = parse_counts(text, "--" + common.option.name, 1, high);
 }
 
-/// Appends to a list: the text's specs or CSV names or, for a repeatable option, the text.
+/// Appends the text's specs or, for a repeatable option, the text itself, or else its CSV names.
 void take(std::vector<std::string>& field, const CommonOption& common, const std::string& text) {
     if (common.value == "SPECS")
         std::ranges::move(split_specs(text, "--" + common.option.name), std::back_inserter(field));
@@ -173,7 +173,7 @@ constexpr double most_dimensions = 1'000'000;
 constexpr double most_sets = 1'000'000'000;
 constexpr double most_work = 0x1p60;
 
-const Row rows[] = {  // an array, as a vector would copy each
+const Row rows[] = {  // an array: a vector would copy each row
     {"--generators", "SPECS", "",
      "generators to compare, also without this option's name: sobol:scramble=owen,halton or "
      "'sobol --scramble owen' 'rank1-lattice -w cranley-patterson'",

@@ -217,7 +217,7 @@ struct CompletionsRequest : Request {
 /// combination. @throws Error(usage)
 std::unique_ptr<Request> request_of(const Arguments& arguments);
 
-/// As request_of(), with the type of the arguments' verb.
+/// As request_of(), for a verb that has requests of type VerbRequest.
 template <class VerbRequest>
 VerbRequest request_as(const Arguments& arguments) {
     return dynamic_cast<VerbRequest&>(*request_of(arguments));
