@@ -46,12 +46,12 @@ struct Moments {
 };
 
 /// Part of a domain where its density is not 0. The mean of f / p over points with density p
-/// estimates the integral of f over this part only, with which it must be compared.
+/// estimates the integral of f over this part, not over the whole domain.
 struct Support {
     bool whole = true;   ///< the part is the whole domain, except for a set of measure 0
     bool finite = true;  ///< the measure of the part is finite, though perhaps unknown
 
-    /// Whether density() is 0 exactly in gaps: above 0, up to rounding, at points drawn from it.
+    /// Whether a point is in a gap exactly if density() is 0 there, up to rounding at the edges.
     bool by_density = false;
 
     /// Measure of the part, if known.

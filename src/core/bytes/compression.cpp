@@ -20,7 +20,7 @@ constexpr int gzip_window = 15 + 16;  // largest window; +16 selects the gzip he
 /// Number of bytes to pass to zlib in one call; zlib counts bytes in an unsigned int.
 uInt as_much(std::size_t size) { return static_cast<uInt>(std::min(size, std::size_t{1} << 30)); }
 
-/// Passes both spans to zlib; end() removes the consumed front of `in`, the filled one of `out`.
+/// Passes both spans to zlib; end() drops the consumed front of `in` and the filled front of `out`.
 class ZlibTurn {
   public:
     ZlibTurn(z_stream& stream, std::string_view& in, std::span<char>& out)

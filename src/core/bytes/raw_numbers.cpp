@@ -28,7 +28,7 @@ void convert(std::string_view bytes, bool swapped, std::span<double> numbers) {
     }
 }
 
-/// Converts stored numbers of that type among `Stored...` that has type.size bytes.
+/// Converts stored numbers as the type among `Stored...` that has type.size bytes.
 template <class... Stored>
 void convert_sized(std::string_view bytes, const RawType& type, std::span<double> numbers) {
     const auto convert_if = [&]<class One>(One) {
