@@ -53,8 +53,8 @@ std::string wrapped_text(std::string_view text) {
     return wrapped(items, " ");
 }
 
-/// Adds a list of integers as text: KEY, in shaders pairs of 32-bit words if the numbers have 64
-/// bits; KEY.words, always one number each; and the length, KEY.size.
+/// Adds a list of integers as text: KEY, which in shaders has a pair of 32-bit words for a 64-bit
+/// number; KEY.words, without such pairs; and the length, KEY.size.
 void add_list(Words& words, const Constants& list, Language language) {
     const bool hex = std::ranges::any_of(list.numbers, [](std::uint64_t x) { return x >> 31; });
     const auto word = [&](std::uint64_t x) {
@@ -100,7 +100,7 @@ std::string names_in(const Template& code, const std::vector<Unit>& units) {
     return join(names, ", ");
 }
 
-/// Adds a unit's part of the library; refuses options that the part does not use.
+/// Adds a unit's part of the library; refuses a unit without one, and options that it does not use.
 template <class Unit>
 void add_unit(Template& code, const Unit& unit, const std::vector<Unit>& all, const Values& options,
               const Words& words) {
@@ -168,7 +168,7 @@ class Statements {
             row_[b] = numbers[1];
             return;
         }
-        // Like WarpChain, places the image's numbers side by side where the first coordinate was.
+        // As in WarpChain, all numbers of the image replace the first coordinate.
         row_.erase(row_.begin() + static_cast<std::ptrdiff_t>(std::max(a, b)));
         row_.erase(row_.begin() + static_cast<std::ptrdiff_t>(std::min(a, b)));
         row_.insert(row_.begin() + static_cast<std::ptrdiff_t>(a > b ? a - 1 : a), numbers.begin(),
@@ -246,7 +246,7 @@ bool in_name(char c) {
     return byte < 128 && (std::isalnum(byte) != 0 || c == '_');
 }
 
-/// Checks the name of a function; if it is empty, makes one of the generator's name.
+/// Checks the name of a function; an empty name is replaced by that of the generator.
 std::string function_name(std::string name, const std::string& generator) {
     if (name.empty()) {
         name = generator;
@@ -268,8 +268,8 @@ bool has_word(std::string_view text, std::string_view word) {
     return false;
 }
 
-/// Whether a name is in a list of words, in which gl_* stands for all that begin with gl_, and
-/// *__* for all that have two underscores.
+/// Whether a name is in a list of words, in which gl_* stands for all names that begin with gl_,
+/// and *__* for all that contain __.
 bool is_reserved(const std::string& name, const std::string& list) {
     std::istringstream words(list);
     for (std::string word; words >> word;) {
@@ -282,7 +282,7 @@ bool is_reserved(const std::string& name, const std::string& list) {
     return false;
 }
 
-/// Code without comments, preprocessor's lines and docstrings.
+/// Code without comments, preprocessor lines and docstrings.
 std::string without_comments(std::string code) {
     for (const auto& [begin, end] : {std::pair{"/*", "*/"}, {"\"\"\"", "\"\"\""}, {"#", "\n"}})
         for (auto at = code.find(begin); at != code.npos; at = code.find(begin, at)) {
@@ -292,7 +292,7 @@ std::string without_comments(std::string code) {
     return code;
 }
 
-/// Refuses names that mean something else in the language or in this code.
+/// Refuses a name that is reserved in the language or that the emitted code uses itself.
 void check_name(const std::string& name, const std::string& code, const std::string& reserved,
                 const std::string& language) {
     const bool taken = is_reserved(name, reserved);
@@ -331,14 +331,14 @@ Words words_of(const SetsToMake& job, const Plan& plan, Language language, const
         Constants bases{"bases", {}, true};
         for (const std::uint32_t base : generator.bases(plan, job.options))
             bases.numbers.push_back(base);
-        std::uint64_t most = 0;  // entries of a table of digits' images
+        std::uint64_t most = 0;  // largest number of images of digits, over all bases
         for (const std::uint64_t base : bases.numbers)
             for (std::uint64_t power = 1, images = 0; power < std::uint64_t{1} << 62; power *= base)
                 most = std::max(most, images += base);
         words["all_images"] = std::to_string(most);
         const std::uint64_t largest = std::ranges::max(bases.numbers);
         words["largest_base"] = std::to_string(largest);
-        end = std::min(end, (std::uint64_t{1} << 62) / largest);  // reversed digits fit 62 bits
+        end = std::min(end, (std::uint64_t{1} << 62) / largest);  // reversed digits stay below 2^62
         add_list(words, bases, language);
     }
     if (is_shader(language)) end = std::min(end, words_end);
@@ -362,7 +362,7 @@ std::string emitted(SetsToMake job, Language language, std::string name, const R
     job.request.seed = 1;
     job.sets = 3;
     const Plan plan = plan_for(generator, job.request, job.options);
-    if (plan.dimension > most_dimensions)  // possible only with a given vector
+    if (plan.dimension > most_dimensions)  // only a given vector can have so many
         fail(ErrorKind::usage, "--dimension: {} is outside [1, {}], the range of emitted code",
              plan.dimension, most_dimensions);
     if (is_shader(language) && plan.count >= words_end)

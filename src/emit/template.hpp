@@ -10,8 +10,8 @@
 //     %limit KEY MOST       refuses larger values of KEY
 //     %refuse SENTENCE      ends with this error
 //
-// In other lines, {{KEY}} is replaced by its value, whose further lines begin like the first; @@ is
-// replaced by the prefix of all names, and @name by prefix_name.
+// In other lines, {{KEY}} is replaced by its value, @@ by the prefix of all names, and @name by
+// prefix_name. If a value has several lines, the text before {{KEY}} is repeated in each of them.
 #pragma once
 
 #include <functional>
