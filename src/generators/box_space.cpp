@@ -70,7 +70,7 @@ Plan plan_in_box(const Request& request, const Values& options) {
 }
 
 std::vector<double> proportions_of(const Plan& plan) {
-    // Tolerance: sides of squares far from the origin are rounded.
+    // Ratio up to which sides count as equal: far from the origin, rounding makes them differ.
     constexpr double alike = 1 + 1e-9;
     if (!plan.bounds) return {};
     std::vector<double> sides;

@@ -53,7 +53,7 @@ struct BoxSpace {
 /// Space of the plan's box, or of the unit cube if it has none.
 BoxSpace space_of(const Plan& plan, bool torus);
 
-/// Plan for a request whose box, if it has one, determines the default dimension.
+/// Plan for a request; its box, if there is one, determines the default dimension.
 Plan plan_in_bounds(const Request& request);
 
 /// plan_in_bounds() for generators that use distances.

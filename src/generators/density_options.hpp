@@ -28,7 +28,7 @@ void check_invert(const Values& options);
 /// @throws Error(usage) as check_invert, or if --density is given and the dimension is not 2
 void check_density(const Values& options, std::size_t dimension);
 
-/// Density map read from --density; nullopt if it is not given or the generator does not have it.
+/// Density map read from --density; nullopt if that is not given, or no option of the generator.
 /// @throws as check_invert, read_density
 std::optional<DensityMap> given_density(const Values& options, const RunContext& run);
 

@@ -27,7 +27,7 @@ struct Destination {
     /// Whether point i at `row` has an image; safe to call from several threads.
     std::function<bool(std::uint64_t i, std::span<const double> row)> has_image = {};
     bool drops = false;  ///< true if some points have no image; a search should avoid them
-    std::vector<OutcomeAxis> axes = {};  ///< outcomes of each coordinate's parameter
+    std::vector<OutcomeAxis> axes = {};  ///< by coordinate: outcomes that the warps map it to
     PointSet given = {};  ///< preimages in the unit cube of the points that the set extends
 };
 
@@ -143,7 +143,7 @@ struct Generator {
     /// may return its best result so far if it is stopped. If empty: false.
     std::function<bool(const Values&)> whole = {};
 
-    /// For bases other than 2: the base of each coordinate, which scrambles take as their default.
+    /// Base of each coordinate, the default for scrambles; empty if no base other than 2 occurs.
     std::function<std::vector<std::uint32_t>(const Plan&, const Values&)> bases = {};
 
     /// Constants of the points' formula, besides count, dimension, bases and options, for emitted

@@ -88,8 +88,8 @@ class OwenNet {
         std::vector<double> images(low_.block);
         const std::uint64_t shared = reversed_digits(*out, base_) / low_.block;
         scrambles_[k].fill(shared * low_.block, low_.block, images.data(), 1);
-        // Adding 2^-51 before truncation gives the right digits: distinct coordinates differ by at
-        // least 2^-50, with rounding errors of 2^-54.
+        // Coordinates differ by at least 2^-50 and have rounding errors of 2^-54, so that adding
+        // 2^-51 before truncation gives the right digits.
         const auto block = static_cast<double>(low_.block);
         for (std::size_t i = 0; i < count; ++i)
             out[i * d] =
@@ -160,7 +160,7 @@ void check_net_end(const Request& request, const Plan& plan, std::uint32_t base,
 std::unique_ptr<Sequence> net_sequence(std::uint32_t base, std::vector<DigitMatrix> matrices,
                                        const Plan& plan, const Values& options) {
     if (base == 2) {
-        Values all = options;  // natural order if the generator has no --order
+        Values all = options;  // in natural order if the generator has no --order
         if (all.try_find(binary_order.name) == nullptr)
             all.put(binary_order.name, std::string(binary_order.fallback), false);
         return binary_sequence(binary(matrices), plan, all);
@@ -194,7 +194,7 @@ std::unique_ptr<Sequence> plain_sequence(BinaryNet net) {
     });
 }
 
-/// Size of a block in 64-bit words; Owen's scrambling handles a coordinate of all its points.
+/// Number of coordinates in a block of points; Owen's scrambling treats a block axis by axis.
 constexpr std::size_t block_words = 2048;
 
 void scramble_column(const BinaryOwen& owen, std::span<const std::uint64_t> block, std::size_t d,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Sequences from given generating matrices, by the fastest method for their base, and optionally
-// scrambled: the points equal those of the scramble of the same name, applied to unscrambled
-// points.
+// scrambled. Scrambled points equal those that the scramble of the same name makes of the
+// unscrambled ones.
 #pragma once
 
 #include <cstdint>

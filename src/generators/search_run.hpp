@@ -15,8 +15,8 @@
 
 namespace stipple {
 
-/// Run context for the steps of a search that checks for stop requests itself if the run keeps the
-/// best result: then the context ignores them.
+/// Run context for the steps of a search. It ignores stop requests if the run keeps the best
+/// result: then the search has to check for them itself.
 inline RunContext until_best_is_wanted(const RunContext& run) {
     return run.keeps_best ? unstopped(run) : run;
 }

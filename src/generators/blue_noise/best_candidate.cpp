@@ -126,7 +126,7 @@ class LazySearch {
         PointDraws draws(rng_, points_.count());
         best_ = -1;
         all_ = std::max(1.0, std::floor(factor_ * static_cast<double>(points_.count())));
-        // Open cells are about as small as the region of candidates that beat the best one.
+        // Larger cells are halved: open ones are to be as small as the region of better candidates.
         constexpr double fine = 64;
         open_size_ = std::min(0.25, fine * factor_ * nth_root(all_, D + 1) / all_);
         while (!heap_.empty() && all_ * open_share_ < eager) pull();
@@ -291,7 +291,7 @@ class LazySearch {
                 open(half);
     }
 
-    /// Makes a new grid of about one tile per point; tiles find the open cells near a point.
+    /// Makes a new grid of about one tile per point, to find the open cells near a point.
     void make_tiles() {
         double longest = 0;
         for (const double side : sides_[0]) longest = std::max(longest, side);
@@ -319,7 +319,7 @@ class LazySearch {
         cell.points = static_cast<std::uint32_t>(points_.count());
         gather(center(cell), reach_of(cell));
         if (covering_.empty()) return;
-        constexpr double safety = 1 + 1e-12;  // far above rounding errors
+        constexpr double safety = 1 + 1e-12;  // factor far above the rounding errors of a bound
         cell.bound =
             std::min(cell.bound, std::sqrt(covering_.squared(halves_[cell.depth])) * safety);
     }
@@ -386,7 +386,7 @@ class LazySearch {
 
     /// Draws a candidate in the cell and keeps it if it is the best so far.
     void try_candidate(const Open& open, PointDraws& draws) {
-        Point place;  // relative to the cell's corner
+        Point place;  // candidate, relative to the cell's corner
         Point p;
         for (std::size_t k = 0; k < D; ++k) do {
                 place[k] = draws.next() * sides_[open.depth][k];
@@ -425,7 +425,7 @@ class LazySearch {
     GrowingPoints<D> points_;
     std::array<Point, most_halvings + 1> sides_{};     ///< sides of cells, by depth
     std::array<Point, most_halvings + 1> halves_{};    ///< half of sides_
-    std::array<double, most_halvings + 1> shares_{1};  ///< fraction of the box, by depth
+    std::array<double, most_halvings + 1> shares_{1};  ///< a cell's fraction of the box, by depth
     std::vector<Cell> cells_;
     std::priority_queue<Waiting> heap_;
     std::array<std::vector<Open>, most_halvings + 1> open_;  ///< open cells

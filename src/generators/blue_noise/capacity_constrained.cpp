@@ -50,7 +50,7 @@ constexpr Param<bool> crystals{
 
 constexpr double rough = 1e-2;   // relative tolerance of the masses while points still move
 constexpr std::size_t few = 20;  // limit of Newton steps for `rough`; one or two usually suffice
-constexpr double fine = 1e-8;    // relative tolerance at the end; the last step reaches it anyway
+constexpr double fine = 1e-8;    // tolerance at the end; the last Newton step reaches it anyway
 constexpr double promised = 1e-6;
 constexpr std::uint64_t rest = 10;  // iterations from one shake to the next
 
@@ -65,7 +65,7 @@ Vec2 sixfold(const Vec2& d) {
     return times(times(square, square), square);
 }
 
-/// Marks points that, like at least two of their neighbours, have neighbours in nearly a hexagon.
+/// Marks points whose neighbours nearly form a hexagon, if those of two neighbours or more do, too.
 std::vector<bool> hexagons(const EqualCells& cells) {
     struct Order {
         Vec2 sum;
@@ -107,8 +107,8 @@ void shake(EqualCells& cells, const Rng& rng) {
     }
 }
 
-/// Position in a pixel of positive density that is nearest to `at`, but a random 0.1 to 0.2 of the
-/// pixel's sides or more away from its edges, so that no two points coincide.
+/// Nearest position to `at` in the pixels of positive density without their margins. Margins are a
+/// random 0.1 to 0.2 of a pixel's side, so that no two points coincide.
 Vec2 nearest_dark(const DensityMap& density, const Planar& planar, Vec2 at, const Rng& rng,
                   std::uint64_t draw) {
     const auto columns = static_cast<std::int64_t>(density.width());

@@ -9,8 +9,8 @@
 //             --shrink after every --misses darts in a row that were rejected. The first i points
 //             keep the radius at which point i was placed, so that every prefix is well spread.
 // --density   in the plane, darts follow the density. The radius is r at the largest density,
-//             and r(x) = r sqrt(largest density / density(x)) elsewhere; two points keep the
-//             smaller of their radii.
+//             and r(x) = r sqrt(largest density / density(x)) elsewhere. The distance of two points
+//             is at least the smaller of their radii.
 //
 // Shape   d = 1, ..., 6; distances are those in the box of --bounds, across its faces (torus) or
 //         bounded.
@@ -102,7 +102,7 @@ class EvenDarts {
     GrowingPoints<D> points_;
 };
 
-/// Darts that follow a density; r is the radius at its maximum. A pair keeps the smaller radius.
+/// Darts that follow a density, with a radius of r at its maximum and larger radii elsewhere.
 class DenseDarts {
   public:
     DenseDarts(const BoxSpace& space, const DensityMap& map, std::uint64_t seed)
@@ -127,7 +127,7 @@ class DenseDarts {
     static constexpr double memory(double points) { return 120 * points; }
 
   private:
-    /// Indexes the points with their radii for this r, which stay upper bounds while r shrinks.
+    /// Indexes the points with their radii for this r; while r shrinks, these are upper bounds.
     void index(double r) {
         indexed_ = r;
         disks_.emplace(space_, r, times_.size());

@@ -26,7 +26,7 @@ constexpr double unit = 0x1p40;  ///< weights are integers, in units of 2^-40
 struct Kernel {
     double nearest;  ///< r_min / r_max: distances below 2 r_min count as 2 r_min
 
-    /// @param inverse 1 / (distance from which on the term is 0)
+    /// @param inverse 1 / (distance at which the term becomes 0)
     [[nodiscard]] std::uint64_t operator()(double squared_distance, double inverse) const {
         const double t = 1 - std::max(std::sqrt(squared_distance) * inverse, nearest);
         const double t2 = t * t;
@@ -61,7 +61,7 @@ class LayeredPoints {
     [[nodiscard]] std::size_t count() const { return originals_.size(); }
     [[nodiscard]] std::uint32_t original(std::size_t s) const { return originals_[s]; }
 
-    /// Calls visit(t, squared distance, 1 / (distance from which on the term is 0)) for all points
+    /// Calls visit(t, squared distance, 1 / (distance at which the term becomes 0)) for all points
     /// t that have a term with s, including s itself.
     template <class Visit>
     void visit(std::size_t s, Visit&& visit) const {
@@ -290,7 +290,7 @@ CrowdExtent crowd_extent(std::span<const double> rows, std::size_t directions,
         for (std::size_t k = 0; k < d / 2; ++k) volume *= ball.square;
         volumes.push_back(volume);
     }
-    const double points = static_cast<double>(inner) - 1.0 / 3;  // points in a median ball
+    const double points = static_cast<double>(inner) - 1.0 / 3;  // median ball's volume, in points
     constexpr double inside = 0.4;  // quantile; balls this small rarely cross the set's boundary
     return {d, quantile(std::move(volumes), inside) * static_cast<double>(others.size()) / points};
 }

@@ -163,7 +163,7 @@ class FarthestPoint {
     /// If the largest gap is the one that point i has left, inserts the point beyond the gap's
     /// centre, unless it would be nearer to others than at `was`. Returns whether it was inserted.
     bool overshoot(std::size_t i, Vec2 was, Vec2 to, double nearest) {
-        constexpr double beyond = 0.8;  // fraction of the step; 0 takes 8 times as many iterations
+        constexpr double beyond = 0.8;  // fraction of `step`; with 0, 8 times as many iterations
         const Vec2 step = sites_.shortest(was, to);
         if (step.x * step.x + step.y * step.y > nearest / 16) return false;
         sites_.insert(i, sites_.inside({to.x + beyond * step.x, to.y + beyond * step.y}));

@@ -37,7 +37,7 @@ namespace stipple::generators::gaussian_blue_noise {
 namespace {
 
 constexpr std::int64_t usual_steps = 1000;
-constexpr std::int64_t usual_steps_to_density = 300;  // a step takes about ten times as long
+constexpr std::int64_t usual_steps_to_density = 300;  // fewer, as a step takes ten times as long
 
 constexpr Param<std::int64_t> iterations{.name = "iterations",
                                          .low = 0,

@@ -67,7 +67,7 @@ struct PlanarStart {
 PlanarStart planar_start(const Plan& plan, const Values& options, double bytes,
                          std::string_view who, const RunContext& run);
 
-/// Moments of cells, weighted by function(density) / its mean; nullopt without a density.
+/// Moments of cells for function(density), scaled to a mean of 1; nullopt without a density.
 std::optional<DensityMoments> planar_moments(const std::optional<DensityMap>& density,
                                              const std::function<double(double)>& function,
                                              const Planar& planar, const RunContext& run);

@@ -208,7 +208,7 @@ std::vector<double> different_rows(const Crowd& crowd) {
     return rows;
 }
 
-/// Extent of a file's points: from the options, that of their box if they fill it, or estimated.
+/// Extent of a file's points: given by options; or that of their box, if filled; or estimated.
 CrowdExtent extent_of_file(const Crowd& crowd, std::uint64_t kept, const Values& options,
                            const RunContext& run) {
     constexpr double most_of_it = 0.88;
@@ -286,7 +286,7 @@ std::vector<std::uint32_t> thin(const Crowd& crowd, std::vector<std::uint32_t>& 
 
 /// Reorders the points so that every prefix is well spread.
 void arrange(const Crowd& crowd, std::vector<std::uint32_t>& points, const RunContext& run) {
-    std::vector<std::uint32_t> tail;  // eliminated points; the last in the new order comes first
+    std::vector<std::uint32_t> tail;  // eliminated points, in the reverse of their new order
     const auto done = [all = static_cast<double>(points.size())](std::size_t left) {
         return 1 - static_cast<double>(left) / all;
     };

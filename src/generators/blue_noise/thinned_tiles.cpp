@@ -111,7 +111,7 @@ struct Histogram {
 Histogram histogram_of(const TilesInWindow& candidates, const Window& window,
                        const RunContext& run) {
     Histogram all;
-    std::mutex adding;  // sums of integers: any order will do
+    std::mutex adding;  // guards `all`, whose integers may be added in any order
     for_each_block(run, candidates.tiles(), block_of(candidates), [&](const Block& block) {
         Histogram part;
         for (std::uint64_t t = block.first; t < block.last; ++t)
@@ -149,7 +149,7 @@ std::optional<Window> window_of(const TilesInWindow& candidates, std::uint64_t w
                                 const RunContext& run) {
     constexpr std::uint64_t few = 1 << 16;
     const double mean = static_cast<double>(wanted + 1) / static_cast<double>(candidates.tiles());
-    // First from half to twice the mean, where the score usually is; then anywhere.
+    // Looks for the score from half to twice `mean` first; if it is not there, among all scores.
     Window window{std::bit_cast<std::uint64_t>(mean) - (std::uint64_t{1} << 52), 53};
     while (true) {
         std::uint64_t held = 0;

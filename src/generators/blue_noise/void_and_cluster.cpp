@@ -122,8 +122,8 @@ std::string mask_png(const Torus& torus, const std::vector<std::uint32_t>& order
                       png_bytes_of_samples(samples, 16), {});
 }
 
-/// Calls visit(part, overlap) for each of `parts` equal intervals of [0, 1) that overlaps
-/// [number / all, (number + 1) / all). The overlap is in units of 1 / (parts all).
+/// Calls visit(part, overlap) for those of `parts` equal intervals of [0, 1) that overlap
+/// [number / all, (number + 1) / all). The overlap's length is in units of 1 / (parts all).
 template <class Visit>
 void for_overlaps(std::uint64_t number, std::uint64_t all, std::uint64_t parts,
                   const Visit& visit) {

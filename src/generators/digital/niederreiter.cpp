@@ -67,7 +67,7 @@ bool is_irreducible(const Polynomial& p, const std::vector<Polynomial>& smaller,
     return true;
 }
 
-/// First irreducible polynomials, by degree and then by the number that their lower digits form.
+/// First irreducible polynomials, by degree, then by the number with their coefficients as digits.
 std::vector<Polynomial> irreducible_polynomials(std::size_t count, std::uint32_t base) {
     std::vector<Polynomial> found;
     for (std::size_t degree = 1; found.size() < count; ++degree) {

@@ -3,7 +3,7 @@
 // Progressive multi-jittered points, in the plane. For every k
 //
 //     the first 4^k points     hold one in each of the 2^k x 2^k squares,
-//     the first 2 4^k points   hold two in each of them, in opposite quarters of it,
+//     the first 2 4^k points   hold two in each square, in diagonally opposite quarters of it,
 //
 // and for every m each of the 2^m strips along either axis holds one of the first 2^m points. The
 // same is true of points j 2^m, ..., (j + 1) 2^m - 1 for every j. Unlike in pmj02, other elementary

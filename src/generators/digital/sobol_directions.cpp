@@ -93,9 +93,9 @@ Initializer read_line(TokenFile& file, std::size_t dimension, bool bare) {
     return initial;
 }
 
-/// Reads LatNet Builder's header, one number on each line with a comment: the dimension, then two
-/// optional numbers for interlacing, and optionally the number of digits of the number of points.
-/// Returns the interlacing factor.
+/// Reads LatNet Builder's header, lines of a number and a comment: the dimension, for interlaced
+/// points the factor and the number of components, and maybe m for 2^m points. Returns the
+/// interlacing factor, 1 by default.
 std::size_t take_header(TokenFile& file) {
     std::size_t alpha = 1;
     while (file.comment_has("#")) {

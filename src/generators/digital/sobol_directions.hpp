@@ -10,7 +10,7 @@
 
 namespace stipple {
 
-/// Number of dimensions in the program's table.
+/// Number of dimensions in the table of Joe and Kuo that is built into the program.
 extern const std::size_t sobol_table_dimensions;
 
 /// Matrices of `digits` columns from the table of Joe and Kuo; dimension <= sobol_table_dimensions.

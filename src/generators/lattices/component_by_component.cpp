@@ -160,7 +160,7 @@ class Part {
         correlation_.take_kernel();
     }
 
-    /// Adds this part of E(z) + constant to total[z], z = 0, 1, ...; correct only for z prime to n.
+    /// Adds this part of E(z), up to a constant, to every total[z]; correct only for z prime to n.
     void add(std::span<const double> p, std::vector<double>& total) {
         gather(p);
         correlation_.correlate();
@@ -211,7 +211,7 @@ class Construction {
         for (std::uint64_t i = 0; i < n_; i += rows_at_once)
             multiply(omega_, i, std::min<std::size_t>(rows_at_once, n_ - i), static_cast<double>(z),
                      weight, &p[i]);
-        p[0] = 0;  // the origin adds the same to E for all vectors
+        p[0] = 0;  // left out: the origin adds the same to E for all vectors
         products_.keep_in_range();
     }
 
@@ -296,8 +296,8 @@ std::uint64_t korobov_multiplier(std::uint64_t n, std::span<const double> weight
     double least = std::numeric_limits<double>::infinity();
     for (std::uint64_t t = 0; t < tries; ++t) {
         search_tick(run, t, tries);
-        // Tries all multipliers if there is time; otherwise multiples of the golden ratio modulo 1,
-        // scaled to the range, because these are spread evenly.
+        // Tries all multipliers if `tries` is enough for them; otherwise multiples of the golden
+        // ratio modulo 1, scaled to the range, because these are spread evenly.
         const std::uint64_t turn = t * 0x9E3779B97F4A7C15;
         std::uint64_t a =
             1 + (tries == range ? t : static_cast<std::uint64_t>(Wide{turn} * range >> 64));

@@ -10,8 +10,8 @@
 //
 // Shape    n in [1, 2^24].
 // Beware   weights above 6 / pi^2 make factors negative. With many negative factors, some products
-//          become the more negative the worse the points are spread, so that a repeated component
-//          would give the least e^2, as it would if weights are very small.
+//          become the more negative the worse the points are spread; then a repeated component
+//          would give the least e^2. With very small weights it would, too.
 // Units    with all weights 1, e^2 is the figure of merit P_2 of the lattice.
 // Source   I. H. Sloan, S. Joe, Lattice Methods for Multiple Integration, Oxford 1994 (P_alpha).
 #pragma once

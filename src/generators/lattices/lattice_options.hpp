@@ -58,7 +58,7 @@ VectorFile vector_in_file(const Values& options, bool polynomial);
 /// The file to write for --vector-output; empty without this option.
 std::vector<SideFile> vector_files(const Values& options, const VectorFile& lattice);
 
-/// Rejects --weights together with --decay, and either of them if nothing is searched.
+/// Rejects --weights together with --decay, and either of them unless `searches`.
 /// @param searching the rules that search, as named in messages
 /// @param rule the rule in use
 /// @throws Error(usage)

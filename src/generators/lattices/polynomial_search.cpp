@@ -118,7 +118,7 @@ double squared_polynomial_error(std::uint64_t modulus, std::span<const std::uint
             shifted.push_back(q);
             q = q << 1 ^ ((q >> (m - 1) & 1) != 0 ? modulus : 0);
         }
-    std::vector<std::uint64_t> at(vector.size());  // i q mod modulus; i in Gray code order
+    std::vector<std::uint64_t> at(vector.size());  // i q mod modulus, by q; i in Gray code order
     double sum = 0;
     for (std::uint64_t i = 0; i < std::uint64_t{1} << m; ++i) {
         double product = 1;

@@ -13,7 +13,7 @@
 //     fibonacci  (1, F_(k-1)) for n = F_k, the best vector in two dimensions;
 //     vector     given.
 //
-// The weights of the coordinates are given or are j^-decay.
+// The weights of the coordinates j = 1, 2, ... are given, or are j^-decay.
 //
 // Shape   n x d; n <= 2^53, and n <= 2^24 if a rule searches. fibonacci: d <= 2.
 // Cost    O(n d): a division each. cbc at d = 100: 3 s for n = 2^20, 7 s for the next lower prime.
@@ -68,8 +68,8 @@ constexpr Param<Numbers> vector{{.name = "vector",
 /// Number of coordinates updated together, so that no update waits for the one before.
 constexpr std::size_t some_numbers = 64;
 
-/// Sets x = residues / n, and advances the residues by the step. All numbers are integers up to
-/// 2^53, so only the division rounds.
+/// Sets x = residues / n, and adds the step to the residues, modulo n. All numbers are integers up
+/// to 2^53, so only the division rounds.
 /// @param back n - step
 STIPPLE_WIDE void advance(const double* back, double n, std::size_t count, double* residues,
                           double* x) {

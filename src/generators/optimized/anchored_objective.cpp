@@ -8,8 +8,8 @@
 //
 // where V is the product of the corner's coordinates. Boxes are searched plane by plane along the
 // first axis, with the counts of one plane in memory. With weights w_j >= 0 a box is weighted by
-// the product of w_j over the axes on which it does not end at 1. If w_j > 1, a box that ends just
-// below 1 replaces one that ends at 1.
+// the product of w_j over the axes on which it does not end at 1. If w_j > 1, a box that ends at 1
+// gets the weight w_j, too, which is that of the boxes that end just below 1.
 #include <algorithm>
 #include <vector>
 
@@ -136,7 +136,7 @@ class AnchoredObjective final : public Objective {
             const std::size_t j = axis + d_ - 3;
             const auto at = [&](std::uint32_t i) { return rows[i * d_ + j]; };
             const auto& order = order_[axis] = order_by(n_, at);
-            values_[axis].assign(width_, 0);  // padding after the 1: boxes of value 0
+            values_[axis].assign(width_, 0);  // after the 1: padding, for boxes of value 0
             values_[axis][n_] = 1;
             ranks_[axis].resize(n_);
             for (std::uint32_t place = 0; place < n_; ++place) {
@@ -185,8 +185,8 @@ class AnchoredObjective final : public Objective {
         look_in(a, false, least, part, run);
     }
 
-    /// Searches the open or closed boxes that end in plane `a`. Closed boxes use the counts one row
-    /// and one column further.
+    /// Searches the open or closed boxes that end in plane `a`. For closed boxes, reads the counts
+    /// one row and one column further on: they include points on the sides.
     void look_in(std::size_t a, bool open, float least, Part& part, const RunContext& run) const {
         const float outer = weight(0, a) * (open ? 1 : -1);
         const float width = d_ == 3 ? values_[0][a] : 1;

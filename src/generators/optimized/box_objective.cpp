@@ -111,13 +111,13 @@ class BoxObjective final : public Objective {
         for (std::size_t k = 0; k < std::min<std::size_t>(pool_.size(), 8); ++k)
             if (!grid.torus() || ends_at_points(pool_[k])) known.offer(grid_box(pool_[k], grid));
         const SearchResult found = worst_of_all(grid, known, SearchLimits::short_work, run);
-        run.check_stop();  // a stopped search returns without error
+        run.check_stop();  // a stopped search does not throw by itself
         pool_.push_back(pool_box(found.worst));
         return found.worst.value();
     }
 
     [[nodiscard]] double steps() const override {
-        return 500.0 * static_cast<double>(n_ * d_);  // average, with occasional exact searches
+        return 500.0 * static_cast<double>(n_ * d_);  // on average, with occasional exact searches
     }
 
   private:
@@ -140,8 +140,8 @@ class BoxObjective final : public Objective {
         return of;
     }
 
-    /// Whether all sides are at points. The torus's grid has no sides at 0 and 1; a box with such a
-    /// side duplicates another.
+    /// Whether all sides of a box are at points, none at 0 or 1. A torus's grid has no sides there,
+    /// as such boxes duplicate others.
     [[nodiscard]] bool ends_at_points(const PoolBox& box) const {
         return std::ranges::none_of(box.axes, [&](const Sides& sides) {
             return sides.lower == rim_ || sides.upper == rim_;
@@ -194,8 +194,8 @@ class BoxObjective final : public Objective {
         for (std::size_t j = 0; j < d_; ++j) product *= length(box, j);
         return product;
     }
-    /// Weight of an axis. A box that ends at 1 also represents the boxes that end just below 1, if
-    /// the weight of these is larger.
+    /// Weight of an axis. A box that ends at 1 (`at_rim`) has the weight 1, or that of the boxes
+    /// that end just below 1 if it is larger.
     [[nodiscard]] double weight(std::size_t j, bool at_rim) const {
         return at_rim ? std::max(1.0, weights_[j]) : weights_[j];
     }
@@ -234,7 +234,7 @@ class BoxObjective final : public Objective {
         return weight(box) * (box.open ? volume(box) - share : share - volume(box));
     }
 
-    /// Moves a box to the worst interval on one axis, the others fixed; true if its value rises.
+    /// Sets a box's interval on one axis to the worst one; returns whether the box's value rises.
     bool improve(PoolBox& box, std::size_t axis) {
         mark_inside(box, axis);
         line_.clear();

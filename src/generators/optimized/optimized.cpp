@@ -248,7 +248,7 @@ double l2_steps(const Plan& plan) {
     return n * n * static_cast<double>(plan.dimension) / 3;
 }
 
-/// Default budget in steps; at most 10^6 objective values per point, so less for few points.
+/// Default budget in steps, at most those of 10^6 objective values per point.
 double usual_budget(const Plan& plan, const Values& options) {
     const double most =
         1e6 * static_cast<double>(plan.count) * make_objective(plan, options)->steps();

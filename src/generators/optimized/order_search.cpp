@@ -56,7 +56,7 @@ Ranks order_of(const std::vector<double>& x, const std::vector<double>& y) {
     return ranks;
 }
 
-/// Order of (i, i phi + s mod 1), phi the golden section, with a random shift s.
+/// Order of the points (i, (i phi + s) mod 1), phi the golden section, with a random shift s.
 Ranks rotation(std::size_t n, SplitMix64& draws) {
     std::vector<double> x;
     std::vector<double> y;
@@ -69,9 +69,9 @@ Ranks rotation(std::size_t n, SplitMix64& draws) {
     return order_of(x, y);
 }
 
-/// Order of the points k t (a + b / golden), (k / t) (a - b golden) of the golden lattice, a and b
-/// integers, that are in the unit square, for random t and shift. The square holds n points on
-/// average; returns an empty order unless it holds exactly n.
+/// Order of the points (k t (a + b / golden), (k / t) (a - b golden)), a and b integers, that a
+/// random shift puts into the unit square. t is random, and k such that these are n points on
+/// average; returns an empty order unless they are exactly n.
 Ranks lattice_cut(std::size_t n, SplitMix64& draws) {
     const double k = std::sqrt(1 / (static_cast<double>(n) * std::sqrt(5.0)));
     const double t = golden + unit(draws) * (1 / golden - golden);
@@ -128,7 +128,7 @@ void kick(PlanarOrder& order, std::size_t n, SplitMix64& draws) {
         made += static_cast<std::size_t>(order.attempt(any_swap(n, draws), limit));
 }
 
-/// Continues a descent for at most `steps` steps; first perturbs its order by a kick if it is over.
+/// Continues a descent for at most `steps` steps; if it is over, first changes its order by a kick.
 /// Returns the steps taken. @throws Error(cancelled)
 double go_on(Descent& descent, SplitMix64 draws, double steps, const RunContext& run) {
     constexpr double equal = 1 + 1e-12;
@@ -272,7 +272,7 @@ optimized::OptimizedRows least_star_discrepancy(std::size_t n, std::uint64_t see
     const auto size = static_cast<double>(n);
     const double bytes = 8 * size * size + 200 * size;
     run.need_memory(bytes, "the search for an order");
-    RunContext own = run;  // with only as many threads as memory allows
+    RunContext own = run;  // has only as many threads as memory allows
     own.threads = static_cast<unsigned>(std::min(static_cast<double>(run.memory_left()) / bytes,
                                                  static_cast<double>(run.thread_count())));
     Descent best = n > 1 ? OrderSearch(n, seed, budget, own).best() : Descent{{0}};

@@ -2,7 +2,7 @@
 //
 // Search over the orders of n points of the plane for the least star discrepancy.
 //
-// Starts    the orders of (i, i phi + s mod 1), phi the golden section, and of golden lattices,
+// Starts    the orders of (i, (i phi + s) mod 1), phi the golden section, and of golden lattices,
 //           stretched and cut out at random. Descents begin at all starts, lowest level (n times
 //           the discrepancy) first, then at random starts changed by some swaps.
 // Descents  swaps of neighbours by x or by y that do not raise the level, about a third of them on

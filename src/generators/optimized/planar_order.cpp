@@ -85,7 +85,7 @@ PlanarOrder::Ranks PlanarOrder::ranks() const {
 }
 
 std::vector<double> PlanarOrder::points() const {
-    const double one = x_[n_ + 1];  // divides x, multiplies y, as in normalise()
+    const double one = x_[n_ + 1];  // x_{n+1} = 1 / y_{n+1}; both are scaled to 1
     std::vector<double> rows;
     for (std::size_t i = 1; i <= n_; ++i)
         for (const double value : {x_[i] / one, y_[rank_[i]] * one})
@@ -148,7 +148,7 @@ void PlanarOrder::put(Node node, double value) {
     }
 }
 
-/// Moves a node to a bound that another node sets. Returns true if that closes a cycle of bounds.
+/// Moves `node` to a bound that `from` sets. Returns true if that closes a cycle of bounds.
 bool PlanarOrder::move(Node node, Node from, bool by_order, double value) {
     if (trying_) undo_.push_back({node, this->value(node)});
     put(node, value);
@@ -180,7 +180,7 @@ PlanarOrder::Node PlanarOrder::pop() {
     return node;
 }
 
-/// Starts a new era: invalidates all entries of from_, the node that bounds each node.
+/// Starts a new era, in which an entry of from_ is valid only once its node has moved.
 void PlanarOrder::begin() {
     if (++era_ != 0) return;
     std::ranges::fill(moved_in_, 0);
@@ -266,8 +266,8 @@ void PlanarOrder::take_cycle() {
     } while (node != met_);
 }
 
-/// Lowest level at which the cycle's bounds are consistent: the product of (c + F) / n over open
-/// boxes equals that of (c - F) / n over closed ones.
+/// Lowest level F at which the cycle's bounds are consistent: the product of (c + F) / n over the
+/// open boxes, with counts c, equals that of (c - F) / n over the closed ones.
 double PlanarOrder::level_of_cycle() const {
     double low = 0;
     double high = std::numeric_limits<double>::infinity();
@@ -305,7 +305,7 @@ void PlanarOrder::raise() {
     begin();
 }
 
-/// Raises the level until the bounds have a solution; false if it exceeds the limit or gives up.
+/// Raises the level until the bounds have a solution; false above `limit` or if relax() gives up.
 bool PlanarOrder::settle(double limit) {
     for (;;) {
         const Outcome outcome = relax();
@@ -336,7 +336,7 @@ void PlanarOrder::lower() {
 void PlanarOrder::tighten(const Swap& swap, bool more) {
     const auto [by_x, p] = swap;
     if (by_x == more) return push(static_cast<Node>(by_x ? p : n_ + p + 1));
-    // Otherwise, several coordinates of one axis bound a single coordinate of the other.
+    // In the other two cases, several coordinates of one axis bound one coordinate of the other.
     const auto [low, high] =
         by_x ? std::minmax(rank_[p], rank_[p + 1]) : std::minmax(place_[p], place_[p + 1]);
     const auto n = static_cast<double>(n_);

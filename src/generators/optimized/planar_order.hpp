@@ -11,8 +11,8 @@
 //
 // In the logarithms of x and of 1 / y each of these bounds a difference, so a solution exists
 // exactly if no cycle of bounds is contradictory. The Bellman-Ford method finds a solution or such
-// a cycle. The F at which the cycle becomes consistent is a lower bound. F is raised to it until a
-// solution exists; then F is the least value of the order, and the last cycle proves it.
+// a cycle. The F at which the cycle becomes consistent is a lower bound. F is raised to that bound,
+// until a solution exists: then F is the least value of the order, as the last cycle proves.
 //
 // Cost    a first solution takes some 30 n^2 steps (comparisons of a bound): 0.2 ms for n = 100, 20
 //         ms for n = 1000 on one core; 8 n^2 bytes. The solution after a swap takes much less.
@@ -53,8 +53,8 @@ class PlanarOrder {
     /// Points that attain the level, as rows in the order of x; in [0, 1).
     [[nodiscard]] std::vector<double> points() const;
 
-    /// A random swap that may change the count of a box on the critical cycle; nullopt if that box
-    /// ends at the rim.
+    /// A random swap that may change the count of a box on the critical cycle; nullopt if the side
+    /// of that box is not between two points.
     std::optional<Swap> critical_swap(SplitMix64& draws) const;
 
     /// Makes the swap if the level is then at most `limit`; returns whether it was made. Gives up
@@ -116,8 +116,8 @@ class PlanarOrder {
     std::vector<Bound> cycle_;  ///< critical cycle: proves that no lower level is possible
     std::vector<Bound> saved_;
 
-    std::vector<Node> from_;              ///< for a node moved in this era: the node that bounds it
-    std::vector<std::uint8_t> by_order_;  ///< whether that node is its neighbour in the order
+    std::vector<Node> from_;  ///< for a node moved since begin(): the node that bounds it
+    std::vector<std::uint8_t> by_order_;  ///< whether that node is the neighbour in the order
     std::vector<std::uint32_t> moved_in_;
     std::uint32_t era_ = 0;
     Node met_ = 0;  ///< node at which a cycle closed

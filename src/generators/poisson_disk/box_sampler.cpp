@@ -81,7 +81,7 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
 
     /// A point whose disk overlaps the tile.
     struct Near {
-        Point place;  ///< from the tile's first cell, in cell sides
+        Point place;  ///< offset from the tile's first cell, in cell sides
         Point at;
         Cell cell;
     };

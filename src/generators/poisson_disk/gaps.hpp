@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Gaps: cubes within a cell that may be partly uncovered. A gap, like a cell, is divided into P^D
-// sub-cells, and a word has a bit for each of them: bit sum_k i_k P^k for the one with index i_k
-// along direction k. Gaps shrink to their open sub-cells, or are split, until nothing is open.
+// sub-cells, each with a bit of a word: bit sum_k i_k P^k for index i_k along direction k. Open are
+// sub-cells that no single disk covers. Gaps shrink to them, or are split, until nothing is open.
 //
 // Shape   P = 8 (D = 2), 4 (3), 2 (4 ... 6).
 #pragma once
@@ -41,7 +41,7 @@ inline constexpr auto nth_in_byte = [] {
     return table;
 }();
 
-/// Position of the n-th set bit, counted from 0; there must be more than n.
+/// Position of the n-th set bit, counted from 0; more than n bits must be set.
 inline std::size_t nth_bit(SubcellBits bits, std::size_t n) {
     constexpr SubcellBits each = 0x0101010101010101U;  // 1 in each byte
     constexpr SubcellBits high = 0x8080808080808080U;
@@ -57,7 +57,7 @@ inline std::size_t nth_bit(SubcellBits bits, std::size_t n) {
 
 template <std::size_t D>
 struct Gap {
-    std::array<double, D> corner;  ///< from the cell's lowest corner, in units of the cell's sides
+    std::array<double, D> corner;  ///< offset from the cell's lowest corner, in cell sides
     std::uint16_t place;           ///< index of the cell in its tile
     std::uint8_t level;            ///< the side is 2^-level of the cell's
 
@@ -74,7 +74,7 @@ struct Extent {
     explicit Extent(SubcellBits bits) {
         constexpr std::size_t p = subcells<D>;
         for (std::size_t k = 0, stride = 1; k < D; ++k, stride *= p) {
-            SubcellBits fold = bits;  // projected onto direction k
+            SubcellBits fold = bits;  // bits projected onto direction k
             for (std::size_t other = 0, by = 1; other < D; ++other, by *= p)
                 for (std::size_t half = p / 2; other != k && half > 0; half /= 2)
                     fold |= fold >> (half * by);

@@ -114,7 +114,7 @@ inline constexpr unsigned space_tile_bits = 5;
 template <std::size_t D>
 Rows box_sample(const Task<D>& task, const RunContext& run);
 
-/// Samplers for five or more cells along each direction, if a radius spans two (Grid::reach).
+/// Samplers for five or more cells along each direction, if a radius spans two cells.
 Rows plane_sample(const Task<2>& task, const RunContext& run);
 Rows space_sample(const Task<3>& task, const RunContext& run);
 

@@ -10,9 +10,9 @@
 //
 // Shape   D = 2 ... 6.
 // Cost    eight lines, or eight disks, at a time.
-// Promise a sub-cell reported as covered is covered by a single disk, and answers of hit or no hit
-//         are right: within `slack` of a rim, sub-cells count as uncovered, and the answer is
-//         `unsure`.
+// Promise a sub-cell reported as covered is covered by a single disk, and the answers Hit::yes and
+//         Hit::no are right. Within `slack` of a disk's rim, sub-cells count as uncovered, and the
+//         answer is Hit::unsure.
 #pragma once
 
 #include <algorithm>

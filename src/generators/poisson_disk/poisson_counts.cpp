@@ -17,7 +17,7 @@ constexpr auto inverses = [] {
     return table;
 }();
 
-/// Poisson-distributed count by inversion: the first whose cumulative probability is above u.
+/// First count with a cumulative Poisson probability above u; `none` is the probability of 0.
 std::uint64_t first_above(double u, double mean, double none) {
     constexpr double nothing = 1e-20;  // probabilities below the resolution of u
     double chance = none;

@@ -199,8 +199,8 @@ Packing pack(const BoxSpace& space, const Plan& plan, const Values& options,
         return {maximal_disks(space, r, r, plan.seed, run), r};
     }
     if (plan.count == 1) return single(space, plan.seed);
-    // If the radius were the largest distance in the box, a disk would leave only isolated points
-    // uncovered, which rounding may hide.
+    // The search starts below the largest distance in the box: a disk of that radius would leave
+    // only isolated points uncovered, which rounding may hide.
     const double most = space.largest_distance();
     const double typical = typical_radius(space, static_cast<double>(plan.count));
     const SearchGoal goal{plan.count, plan.dimension, std::min(typical, 0.99 * most), most};

@@ -64,7 +64,7 @@ class Search {
         return found;
     }
 
-    /// Radius that should lead to the count; the middle of the known bounds if it is outside them.
+    /// Next radius to try: an estimate, or the middle of the known bounds if that is outside them.
     [[nodiscard]] double next(double r, std::uint64_t found) const {
         const double ratio = static_cast<double>(found) / static_cast<double>(count_);
         const double step = (ratio - 1) / static_cast<double>(dimension_);

@@ -296,7 +296,7 @@ class TileRounds {
                        [&](const Block& b) { work(tiles_[open_[b.first]], open_[b.first]); });
     }
 
-    /// Tiles along direction k within a radius of tile `own`, and the offsets from its first cell.
+    /// Tiles along direction k within a radius of tile `own`, and their offsets from that tile.
     [[nodiscard]] std::vector<std::pair<std::uint32_t, int>> neighbours_along(
         std::size_t k, std::uint32_t own) const {
         const Grid<D>& grid = task_.grid;

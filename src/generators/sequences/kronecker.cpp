@@ -10,9 +10,9 @@
 // Shape   n x d; indices below 2^53.
 // Cost    O(n d): an addition of two words a coordinate.
 // Promise all arithmetic is in integers of 127 bits, modulo 1: a coordinate is the first 53 bits of
-//         frac(offset + i alpha_k), at any index. A given alpha is rounded to a double. Those of
-//         R_d are within d 2^-126, so that point i is within i d 2^-126 + 2^-53; square roots of
-//         primes are within 2^-100.
+//         frac(offset + i alpha_k), at any index. A given alpha is rounded to a double. The alphas
+//         of R_d are within d 2^-126, so that point i is within i d 2^-126 + 2^-53; square roots
+//         of primes are within 2^-100.
 // Beware  for d > 1, the evenness of R_d is a conjecture; no bound of its discrepancy is known.
 //         M. Roberts adds the offset 0.5 and begins with i = 1.
 // Source  M. Roberts, "The unreasonable effectiveness of quasirandom sequences" (2018),

@@ -5,8 +5,8 @@
 //
 //     f(x) = sum_i K_i(x) - integral rho(y) K_y(x) dy,    K_y(x) = exp(-|x - y|^2 / sigma(y)^2),
 //
-// is 0 where points and density agree; sigma, near rho^(-1/2), is the local spacing of points. They
-// move down the gradient of f, smoothed by their own kernel, as in gaussian_relaxation.cpp:
+// is 0 where points and density agree; sigma, near rho^(-1/2), is the local spacing. Points move
+// down the gradient of f, smoothed by their own kernel, as in gaussian_relaxation.cpp:
 //
 //     F_i = sum_j m_j 4 a b / (a + b)^2 (x_i - x_j) exp(-|x_i - x_j|^2 / (a + b)),
 //     a = sigma_i^2,  b = sigma_j^2,
@@ -47,7 +47,7 @@ constexpr int deepest = 24;        // largest level of the quadtree
 
 using PlaneSides = std::array<double, 2>;
 
-/// Sides of the torus of area `count`, proportional to `extents`, or equal if empty.
+/// Sides of the torus of area `count`: proportional to `extents`, or equal if that is empty.
 PlaneSides sides_of(std::size_t count, std::span<const double> extents) {
     const double side = std::sqrt(static_cast<double>(count));
     if (extents.empty()) return {side, side};
@@ -280,8 +280,8 @@ class Quadtree {
 
     [[nodiscard]] const std::vector<Body>& leaves() const { return leaves_; }
 
-    /// sigma^2 at a point of the unit square: the area per point in the square of the box around
-    /// the point that holds window_mass points.
+    /// sigma^2 at (x, y) in the unit square: the area per point in the square of the box that is
+    /// centred there and holds window_mass points.
     [[nodiscard]] double square_at(double x, double y) const {
         double low = 0;
         double high = 0.5;
@@ -304,7 +304,7 @@ class Quadtree {
     void split(const Part& s, int depth) {
         run_.check_stop();
         const double mass = count_ * masses_.of(s.x, s.x + s.width, s.y, s.y + s.height);
-        constexpr double nothing = 1e-9;  // above the rounding errors of an empty square
+        constexpr double nothing = 1e-9;  // a smaller mass is a rounding error of 0
         if (mass < nothing) return;
         if (mass > leaf_mass && depth < deepest) {
             const double width = s.width / 2;
@@ -349,7 +349,7 @@ void all_forces(const std::vector<Body>& points, const std::vector<Octave>& dens
 }  // namespace
 
 double density_relaxation_bytes(std::uint64_t count, const DensityMap& map) {
-    // Points with forces and steps; up to 12 tree nodes a point, a third of them inner nodes.
+    // Bytes of a point with its force and step, and of up to 12 nodes of the quadtree per point.
     return static_cast<double>(count) * (130 + 12 * 100) +
            8 * static_cast<double>(map.values().size());
 }

@@ -91,7 +91,7 @@ double EqualCells::least_mass() const {
 }
 
 std::vector<double> EqualCells::newton_step() const {
-    constexpr double accuracy = 1e-5;  // residual relative to the error of the masses
+    constexpr double accuracy = 1e-5;  // largest residual, as a fraction of the masses' error
     const std::size_t n = count();
     std::vector<double> step(n), residual(n), direction(n), image(n), scale(n, 1e-300);
     for (const auto& [a, b, conductance] : bonds_) {

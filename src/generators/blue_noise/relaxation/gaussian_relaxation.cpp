@@ -54,7 +54,7 @@ double side_length(double count, std::size_t dimension) {
 
 using Sides = std::array<double, relaxation_dimensions>;
 
-/// Sides of the torus of volume `count`, proportional to `extents`, or equal if empty.
+/// Sides of the torus of volume `count`: proportional to `extents`, or equal if that is empty.
 Sides sides_of(std::size_t count, std::size_t dimension, std::span<const double> extents) {
     Sides sides{};
     sides.fill(side_length(static_cast<double>(count), dimension));
@@ -127,7 +127,7 @@ STIPPLE_WIDE double sum_of_products(const Factors& factors, std::size_t dimensio
     return sum_of_lanes(parts);
 }
 
-/// `x` shifted into [0, side) by a multiple of `side`, usually by at most one side.
+/// `x` shifted into [0, side) by a multiple of `side`; fastest if one side is enough.
 double wrapped(double x, double side) {
     if (x < 0) x += side;
     if (x >= side) x -= side;
@@ -136,7 +136,7 @@ double wrapped(double x, double side) {
     return x >= 0 && x < side ? x : 0;
 }
 
-/// Sums over images for the pairs of one point with all others, by axis; padded with zeros.
+/// For one point and every other: sums over the other's images on each axis; padded with zeros.
 struct AxisSums {
     std::array<std::vector<double>, relaxation_dimensions> kernels = {};
     std::array<std::vector<double>, relaxation_dimensions> pulls = {};

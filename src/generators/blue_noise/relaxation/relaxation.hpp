@@ -30,7 +30,7 @@ class Descent {
   public:
     explicit Descent(std::size_t coordinates) : ways_(coordinates) {}
 
-    /// Next step of every coordinate. If the caller changes it, later steps build on the change.
+    /// Next step of every coordinate. If the caller changes a step, later ones build on the change.
     std::span<double> step(std::span<const double> forces, double length);
 
   private:
@@ -42,7 +42,7 @@ class Descent {
 double relaxation_bytes(std::uint64_t count, std::size_t dimension);
 
 /// Moves points of [0, 1)^d by `steps` steps. Distances are those of a torus with sides
-/// proportional to `extents`, or of the unit torus if empty. @throws Error(cancelled)
+/// proportional to `extents`, or of the unit torus if that is empty. @throws Error(cancelled)
 void relax_gaussian(std::span<double> rows, std::size_t dimension, std::uint64_t steps,
                     const RunContext& run, std::span<const double> extents = {});
 
@@ -50,7 +50,7 @@ void relax_gaussian(std::span<double> rows, std::size_t dimension, std::uint64_t
 double density_relaxation_bytes(std::uint64_t count, const DensityMap& map);
 
 /// Moves points of [0, 1)^2, all with a positive density, by `steps` steps. Distances are those of
-/// a torus with sides proportional to `extents`, or of the unit torus if empty.
+/// a torus with sides proportional to `extents`, or of the unit torus if that is empty.
 /// @throws Error(cancelled)
 void relax_to_density(std::span<double> rows, const DensityMap& map, std::uint64_t steps,
                       const RunContext& run, std::span<const double> extents = {});

@@ -50,7 +50,7 @@ struct Dart {
 struct PlaneWorkspace : GapWorkspace<2> {
     std::vector<Dart> darts;
     std::vector<std::uint64_t> order;  ///< darts in order of time
-    std::vector<Point> places;         ///< darts on gaps, from the tile's first cell, in cells
+    std::vector<Point> places;         ///< positions of darts on gaps, in cells, from the first one
     /// A bit for each cell, set if it has pending darts; row y of cells is word y + 2.
     std::array<std::uint64_t, plane_side + 4> waiting;
 };
@@ -163,7 +163,7 @@ STIPPLE_WIDE void draw_on_subcells(const PlaneTile& tile, const PoissonCounts& c
                                    std::uint64_t key, std::vector<Dart>& darts) {
     for (int row = 0; row < tile.size(1); ++row) {
         const SubcellBits* covered = tile.covered(PlaneTile::number_of({0, row}));
-        std::array<std::uint8_t, plane_side> found;  // open columns, listed without branches
+        std::array<std::uint8_t, plane_side> found;  // columns of cells with open sub-cells
         std::size_t some = 0;
         for (int column = 0; column < tile.size(0); ++column) {
             found[some] = static_cast<std::uint8_t>(column);

@@ -272,7 +272,7 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
         std::fill_n(covered_, FixedPositions::needed(rows), SubcellBits{0});
         std::fill_n(index_, FixedPositions::needed(rows), none);
         points_.reserve(2 * typical_points(rules.grid));
-        for (int y = 0; y < size_[1]; ++y)  // nothing is open beyond the last column
+        for (int y = 0; y < size_[1]; ++y)  // cells beyond the last column count as covered
             for (int x = size_[0]; x < plane_side; ++x)
                 covered_[number_of({x, y})] = ~SubcellBits{0};
     }

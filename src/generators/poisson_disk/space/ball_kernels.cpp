@@ -73,7 +73,7 @@ struct Pattern {
     return open;
 }
 
-/// Sub-cells that a ball covers in a layer: on 16 adjacent lines, because it reaches no more.
+/// Sub-cells of a layer that a ball covers, on 16 adjacent lines: a ball reaches no more lines.
 struct LineCover {
     /// Maximum radius of a ball in sub-cells, whose sides are at least an eighth of a radius.
     static constexpr int reach = 8;
@@ -113,7 +113,7 @@ struct LineCover {
         const float half = std::sqrt(std::max(left - far_y[line], 0.0F)) * per_side;
         const auto from = static_cast<std::int32_t>(x - half) + 1;
         const auto to = static_cast<std::int32_t>(x + half);
-        return std::max((1 << to) - (1 << from), 0);  // `to` may be below `from`
+        return std::max((1 << to) - (1 << from), 0);  // 0 if `to` is below `from`
     }
 };
 

@@ -23,7 +23,7 @@ namespace stipple::poisson_disk {
 void open_gaps(const NearDisks<3, float>& near, const std::array<float, 3>& scales,
                std::span<const Gap<3>> gaps, SubcellBits* out);
 
-/// open_gaps() for the sub-cells `some` of a cell as gaps, in the order of their bits.
+/// open_gaps() for gaps that are sub-cells of a cell: the set bits of `some`, in their order.
 void open_subcells(const NearDisks<3, float>& near, const std::array<float, 3>& scales,
                    SubcellBits some, SubcellBits* out);
 

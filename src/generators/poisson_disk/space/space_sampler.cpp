@@ -29,7 +29,7 @@ using Counts = std::vector<PoissonCounts>;
 struct SubcellDart {
     using Digits [[gnu::vector_size(16)]] = std::int32_t;
     Digits digits;         ///< position in the cell, in 2^-23 of its sides
-    std::uint64_t detail;  ///< seed of its other random numbers
+    std::uint64_t detail;  ///< seed of the dart's other random numbers
     std::uint16_t place;   ///< index of the cell in its tile
     std::uint8_t subcell;
 };
@@ -104,7 +104,7 @@ STIPPLE_WIDE void throw_at_subcells(const SpaceRules& rules, const SpaceTile& ti
     const Quad to_radii = Quad{rules.scales[0], rules.scales[1], rules.scales[2], 0} *
                           static_cast<float>(SpaceRules::digit);
     for (std::size_t column = 0; column < space_side * BallLines::words; ++column) {
-        // Draws all darts of a layer first: mispredicted hits would delay the drawing.
+        // Draws all darts of a layer before trying any: mispredicted branches would delay drawing.
         work.drawn.clear();
         for (std::size_t y = 0; y < BallLines::along; y += 2)
             draw_on_lines(tile, {column % BallLines::words * 32, y, column / BallLines::words * 4},

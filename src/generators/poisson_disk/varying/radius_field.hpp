@@ -41,8 +41,8 @@ class RadiusField {
     /// Value of f where points are not allowed.
     static constexpr double closed = std::numeric_limits<double>::infinity();
 
-    /// Maximum ratio of the largest f to the smallest; larger values of f are reduced to it, which
-    /// has no effect, because no box is that wide.
+    /// Maximum ratio of f to its minimum. Larger values of f are reduced to that, which has no
+    /// effect on the points, because no box is so wide.
     static constexpr double widest = 1e75;
 
     /// A cell or joined cells: column i, row j of a level; level 0 has the field's own cells.

@@ -63,7 +63,7 @@ class VariedSampler {
         gaps_.push_back({corners[0], corners[1], keys_.bits(0), field_.root()});
         double thrown = 0;  // darts per area r^2 so far
         for (std::uint64_t round = 1; !gaps_.empty(); ++round) {
-            // More darts in each round, and enough for the gap with the largest rate to get some.
+            // More than before, and at least most_darts on the gap with the largest rate.
             density_ =
                 round == 1 ? first_density : std::max(thrown * growth, most_darts / fastest_);
             thrown += density_;
@@ -173,7 +173,7 @@ class VariedSampler {
             const double chance = to_unit(mixer.next());
             dart.time = mixer.next();
             if (!(dart.disk.at[0] < gap.high[0] && dart.disk.at[1] < gap.high[1]))
-                continue;  // rounded up to a side of the gap
+                continue;  // the position was rounded up to a side of the gap
             const double f = gap.node.level == 0
                                  ? field_.least(gap.node)
                                  : field_.within(gap.node, dart.disk.at[0], dart.disk.at[1]);
