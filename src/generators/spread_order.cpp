@@ -21,7 +21,7 @@ Rows in_order(std::span<const double> rows, const BoxSpace& space, double radius
     for (double r = space.largest_distance(); !left.empty(); r *= step)
         std::erase_if(left, [&](const double* p) {
             if (asked++ % often == 0) run.tick(chosen.count(), count);
-            // Once r <= radius, none of the remaining points is too near.
+            // If r <= radius, no two points are nearer than r, so the search is skipped.
             if (r > radius && chosen.any_nearer(p, r)) return false;
             chosen.add(p);
             return true;

@@ -118,7 +118,7 @@ class VariedIndex {
         std::int64_t count;
     };
 
-    /// Class of a radius, not limited to last_class_, which also holds all larger radii.
+    /// Class of a radius. May exceed last_class_, which also has the disks of all higher classes.
     [[nodiscard]] std::size_t class_of(double radius) const {
         int exponent = 0;
         std::frexp(std::min(radius / least_, 1e300), &exponent);
@@ -188,7 +188,7 @@ class VariedIndex {
     std::vector<Class> classes_;
     std::vector<Disk> disks_;
     std::vector<std::uint32_t> next_;   ///< next disk in the list of its cell
-    std::vector<std::uint32_t> heads_;  ///< first disk of each list; 2^k lists
+    std::vector<std::uint32_t> heads_;  ///< first disk of each list; the size is a power of 2
 };
 
 }  // namespace stipple

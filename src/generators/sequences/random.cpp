@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// Independent uniform random points: the engine's numbers dealt to the coordinates in turn, number
-// j = i d + k (from 0) to coordinate k of point i.
+// Independent uniform random points: number j = i d + k of the engine, from 0 on, is coordinate k
+// of point i.
 //
-//     engine       a number is                                  seeds
+//     engine       a number, from the raw output x              seeds
 //     philox       53 high bits of Philox 4x32-10, block j / 2  64 bits
 //     mt19937-64   53 high bits of std::mt19937_64              64 bits
 //     drand48      x / 2^48 of srand48(seed)                    0 to 2^32 - 1
-//     ranlux48     x / 2^48 of std::ranlux48                    0 to 2147483562; 0 is 19780503
-//     ranmar       x / 2^24, seed = 30082 ij + kl               0 to 31329 * 30082 - 1
-//     random       x / 2^31 of the C library's srandom(seed)    0 to 2^32 - 1; 0 is 1
+//     ranlux48     x / 2^48 of std::ranlux48                    0 to 2147483562; 0 acts as 19780503
+//     ranmar       x / 2^24 of RANMAR(ij, kl)                   30082 ij + kl < 31329 * 30082
+//     random       x / 2^31 of the C library's srandom(seed)    0 to 2^32 - 1; 0 acts as 1
 //
-// Cost     O(n d). philox and drand48 jump to any index; the others walk there.
+// Cost     O(n d). philox and drand48 jump to any index; the others draw all earlier numbers.
 // Beware   the legacy engines reproduce the numbers of old programs; their quality is low. ranmar
 //          and random have so few bits that equal coordinates are frequent.
 // Source   see core/rng.hpp and math/digital/legacy_engines.hpp; the C++ standard, [rand.predef].

@@ -6,8 +6,8 @@
 //
 // Shape   n x 1; b in [2, 65536]; indices below 2^53.
 // Cost    O(n): a table of reversed low digits makes it one division a point.
-// Promise correctly rounded, and below 1. Any b^m points from a multiple of b^m on are the integer
-//         multiples of b^-m, all shifted by the same number below b^-m.
+// Promise correctly rounded, and below 1. Points c b^m to (c + 1) b^m - 1, for any integer c, are
+//         the multiples of b^-m in some order, plus a common shift below b^-m.
 // Source  J. G. van der Corput, Proc. Akad. Wet. Amsterdam 38 (1935) 813-821; any base:
 //         J. H. Halton, Numer. Math. 2 (1960) 84-90, doi:10.1007/BF01386213.
 

@@ -27,7 +27,7 @@ constexpr Param<Choice> cell{.name = "cell",
                              .choices = "center|corner",
                              .help = "Position of a point in its cell"};
 
-/// Fills one coordinate of `length` points of a row: cells first, first + step, ... of k cells.
+/// Fills one coordinate of `length` points: of cells first, first + step, ... of k cells.
 void place(double* x, std::size_t stride, bool centered, std::uint64_t first, std::size_t length,
            std::uint64_t step, std::uint64_t k) {
     const std::uint64_t scale = centered ? 2 : 1;

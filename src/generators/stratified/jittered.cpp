@@ -48,7 +48,7 @@ void place_in_rows(std::uint64_t n, bool centered, std::uint64_t first, std::spa
     const auto row_begin = [&](std::uint64_t row) {
         return static_cast<std::uint64_t>(Wide{row} * n / row_count);
     };
-    // Row of point i = first: s_r <= i holds for r < (i + 1) R / n.
+    // Row of point `first`: the largest r with floor(r n / row_count) <= first.
     auto row = static_cast<std::uint64_t>((Wide{first + 1} * row_count - 1) / n);
     std::vector<double> low;
     for (std::size_t offset = 0; offset < rows.size(); ++row) {

@@ -17,10 +17,10 @@ namespace search = latin_hypercube_search;
 
 namespace {
 
-/// Random points of the cube that have an image, at least `need` of them.
+/// At least `need` random points of the cube that satisfy the constraints.
 std::vector<double> points_with_image(const Plan& plan, std::size_t need, const RunContext& run) {
     constexpr std::uint64_t most = std::uint64_t{1} << 27;
-    constexpr std::uint64_t enough = std::uint64_t{1} << 20;  // tries if no point is found
+    constexpr std::uint64_t enough = std::uint64_t{1} << 20;  // limit of tries without success
     constexpr std::uint64_t block = 4096;
     constexpr std::size_t at_once = 64;
     const std::size_t d = plan.dimension;
@@ -50,8 +50,8 @@ std::vector<double> points_with_image(const Plan& plan, std::size_t need, const 
     return found;
 }
 
-/// Edges of strata that hold equal fractions of the points with an image, estimated from at least
-/// 16 random points per stratum; the outermost edges are the extreme coordinates of these points.
+/// Edges of strata that hold equal fractions of the points that satisfy the constraints, estimated
+/// from at least 16 random points per stratum; the outermost edges are these points' extremes.
 std::vector<std::vector<double>> strata_of_images(const Plan& plan, const RunContext& run) {
     const std::size_t d = plan.dimension;
     const auto n = static_cast<std::size_t>(plan.count);
@@ -72,7 +72,7 @@ std::vector<std::vector<double>> strata_of_images(const Plan& plan, const RunCon
     return edges;
 }
 
-/// Along axes with discrete outcomes, puts points into middles of strata; distances use outcomes.
+/// On discrete axes, puts points into middles of strata and measures distances between outcomes.
 void count_outcomes(const Destination& destination, LatinPlaces& places, search::Search& task) {
     const auto& axes = destination.axes;
     if (std::ranges::none_of(axes, &OutcomeAxis::discrete)) return;
@@ -87,7 +87,7 @@ void count_outcomes(const Destination& destination, LatinPlaces& places, search:
     }
 }
 
-/// Exchanges levels to satisfy the constraints; returns 0 if all points satisfy them.
+/// Exchanges levels to satisfy the constraints; returns how many points still violate them.
 std::size_t unsatisfied(const Plan& plan, search::Search& task, const RunContext& run) {
     constexpr std::uint64_t stream = 8;  // a stream used nowhere else
     search::Exchanges exchanges(task.start, task.rules);

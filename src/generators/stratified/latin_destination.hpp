@@ -3,8 +3,8 @@
 // Positions of a Latin hypercube's points in their strata; and preparation of the search for a
 // hypercube whose points become parameters, which may be discrete or under constraints.
 //
-// Outcomes     of discrete parameters: distances along their axes are those of outcomes, with all
-//              categories equally far apart, and points are in the middles of their strata.
+// Outcomes     Along the axis of a discrete parameter, distances are those of its outcomes, with
+//              all categories equally far apart; points are in the middles of their strata.
 // Constraints  The search begins with exchanges of strata until all points satisfy them. If that
 //              fails, as for x + y < 1, which no Latin hypercube with strata of equal width
 //              satisfies, the strata of each axis hold equal fractions of the cube's points that
@@ -21,7 +21,7 @@
 namespace stipple::generators {
 
 /// Points anywhere in their strata, or in the middle. Strata have equal widths or, if constraints
-/// allow no such Latin hypercube, hold equal fractions of the cube's points that have an image.
+/// allow no such Latin hypercube, hold equal fractions of the points that satisfy them.
 class LatinPlaces {
   public:
     LatinPlaces(const Plan& plan, bool centered)
@@ -45,8 +45,8 @@ class LatinPlaces {
     std::vector<std::vector<double>> edges_;  ///< empty: strata are of equal width
 };
 
-/// Adapts the search, whose points are at `places`, to plan.destination.
-/// @throws Error(usage), Error(input) if no start is found
+/// Adapts `task` and `places` to the discrete outcomes and the constraints of plan.destination.
+/// @throws Error(usage); Error(input) if no start satisfies the constraints
 void aim_at_destination(const Plan& plan, const std::shared_ptr<LatinPlaces>& places,
                         latin_hypercube_search::Search& task, const RunContext& run);
 

@@ -28,8 +28,8 @@
 //         n = 2000.
 // Promise each stratum holds one point in exact arithmetic, and also as computed by floor(x n)
 //         (math/digital/stratum.hpp). A search's result is a function of the request and options,
-//         for any number of threads, and never worse with more effort. Its value in the provenance
-//         is that of the middles of strata, with a certificate if all designs were tried.
+//         for any number of threads, and never worse with more effort. The provenance has the value
+//         for points in the middles of strata, and a certificate if all designs were tried.
 // Source  M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239-245,
 //         doi:10.1080/00401706.1979.10489755; B. Tang, J. Amer. Stat. Assoc. 88 (1993) 1392-1397,
 //         doi:10.1080/01621459.1993.10476423; P. Z. G. Qian, J. Amer. Statist. Assoc. 107 (2012)
@@ -110,7 +110,7 @@ constexpr Param<Numbers> levels{
      .help = "Number m of levels of each axis, such as 0,3,8. --optimize then measures distances "
              "between the levels floor(x m); 0: between the coordinates themselves"}};
 
-/// Strata by random permutations. Points are in order, so a block has consecutive indices.
+/// Strata of the plain hypercube: a permutation per coordinate. `index` must be consecutive.
 StrataOf permuted_strata(const Plan& plan) {
     return [n = plan.count, keys = stratified_numbers(plan, 0)](
                std::size_t coordinate, std::span<const double> index, std::span<double> low) {
@@ -123,7 +123,7 @@ StrataOf permuted_strata(const Plan& plan) {
 constexpr std::uint64_t first_keys = 1;
 constexpr std::uint64_t second_keys = 2;
 
-/// Strata by `stratum`, a function of coordinate and index.
+/// Strata given by a function: stratum(coordinate, index) returns a number below `parts`.
 StrataOf strata_by(std::uint64_t parts, auto stratum) {
     return [=](std::size_t coordinate, std::span<const double> index, std::span<double> low) {
         for (std::size_t j = 0; j < index.size(); ++j)
@@ -392,7 +392,7 @@ search::Objective objective_of(const Values& options) {
             static_cast<int>(options[power])};
 }
 
-/// Given points, then points in the strata of a design.
+/// The given points, followed by points in the strata of a design.
 std::unique_ptr<Sequence> points_of(std::shared_ptr<const LatinPlaces> places,
                                     search::Design design, PointSet given) {
     return sequence_of([places = std::move(places), design = std::move(design),
@@ -445,7 +445,7 @@ std::unique_ptr<Sequence> make_design(const Plan& plan, const Values& options,
     task.objective = objective_of(options);
     task.trials = options[effort] * search::usual_trials(task.objective, task.start);
     const search::Result result = search::best_design(task, options[optimize], run);
-    // For many points, describing the design takes a second, too long after a stop.
+    // After a stop, a large design is not described, since that may take a second.
     constexpr double few = 2e7;
     const bool soon = static_cast<double>(plan.count * plan.count * plan.dimension) <= few;
     if (result.stopped)

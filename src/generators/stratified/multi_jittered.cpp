@@ -6,19 +6,19 @@
 //     n = a b   the cells are the a x b grid, a columns and b rows. The strips of a column are
 //               assigned to its b points by a random permutation, a different one in each column;
 //               likewise the strips of a row to its a points.
-//     else      with a columns, b = floor(n / a) rows of a points and one more, of height q / n,
-//               for the remaining q = n mod a points. Column c takes the strips from
-//               floor(c n / a) to floor((c + 1) n / a), up to a random phase: b strips, or b + 1 in
-//               q columns, evenly spread, with a point in the last row. All points are then shifted
+//     else      with a columns, b = floor(n / a) rows of a points, and one more row of height q / n
+//               for the remaining q = n mod a points. Column c has the strips from
+//               floor((c n + f) / a) to floor(((c + 1) n + f) / a) - 1, with a random f < a: b or,
+//               in the q columns with a point in the last row, b + 1. Then all points are shifted
 //               by a random number of strips along x (modulo n), so that every point is uniform.
 //
 // a is that of --shape, or the largest divisor of n in [sqrt(n / 2), sqrt(n)], or floor(sqrt(n)) if
 // there is none.
 //
 // Cost    O(n); point i is found without the others. Tables of n entries up to n = 2^20.
-// Promise one point in each strip, for every n; one in each cell of the grid, or, for other n, one
-//         in each cell of the full rows (of the columns shifted back) and at most one in those of
-//         the last row.
+// Promise one point in each strip, for every n; for n = a b one in each cell; for other n, before
+//         the shift, one in each cell of the full rows and at most one in each cell of the last
+//         row.
 // Source  K. Chiu, P. Shirley, C. Wang, "Multi-jittered sampling", Graphics Gems IV (1994),
 //         370-374 (n = a b). Other n: stipple's own.
 
@@ -66,7 +66,7 @@ class MultiJittered {
 
     [[nodiscard]] Cell cell(std::uint64_t i) const {
         if (i < rows_ * columns_) return {i % columns_, i / columns_};
-        // The column c with extra_before(c) = e and extra_before(c + 1) = e + 1.
+        // Column of point e of the last row: extra_before() is e for it and e + 1 for the next.
         const std::uint64_t e = i - rows_ * columns_;
         return {((e + 1) * columns_ - phase_ - 1) / rest_, rows_};
     }

@@ -67,12 +67,12 @@ class OrthogonalPoints {
             return {level, row % before + row / before / s * before};
         }
         if (shape_.strength == 2) {
-            // Two columns determine the row. Neighbouring columns rank rows by each other's levels,
-            // so that together they are a multi-jittered set in the plane.
+            // Columns 0 and 1, 2 and 3, ... are partners: one's rank is the other's level, so that
+            // together they are a multi-jittered set in the plane.
             const std::size_t partner = (column ^ 1) <= s ? column ^ 1 : 0;
             return {level, value(partner, row)};
         }
-        // The rank leaves out one coefficient of the row, which the level and the others determine.
+        // The rank has all base-s digits of the row except one, which they and the level determine.
         return {level, column == 1 ? row % powers_[shape_.strength - 1] : row / s};
     }
 

@@ -3,10 +3,10 @@
 // Orthogonal arrays of strength t with s levels, s^t rows and index 1, and points from them: in any
 // t columns, each t-tuple of levels is in exactly one row.
 //
-//     polynomials  row i holds the base-s digits a_0, a_1, ..., a_(t-1) of i, s prime. Its columns
-//                  are the values mod s of  a_0 + a_1 x + ... + a_(t-1) x^(t-1)  at
+//     polynomials  for prime s. With the base-s digits a_0, a_1, ..., a_(t-1) of i, row i has the
+//                  values modulo s of  a_0 + a_1 x + ... + a_(t-1) x^(t-1)  at
 //                  x = 0, infinity (that is a_(t-1)), 1, 2, ..., s - 1: up to s + 1 columns
-//     digits       the digits themselves, any s, t columns: the whole grid
+//     digits       for any s. Row i has these t digits themselves: the whole grid
 //
 // The levels of a column are permuted at random. Each of the s levels is a stratum of width 1/s. It
 // is divided further, so that each of the n points has its own stratum of width 1/n along every

@@ -65,7 +65,7 @@ Rng stratified_numbers(const Plan& plan, std::uint64_t stream);
 /// of the count in [sqrt(count / 2), sqrt(count)]; floor(sqrt(count)) if there is no such divisor.
 std::uint64_t jitter_columns(std::uint64_t count, const Values& options);
 
-/// For Generator::constants: number of columns, and of points in the last row if it is not full.
+/// For Generator::constants: number of columns and, if the last row is not full, of its points.
 std::vector<Constants> column_constant(const Plan& plan, const Values& options, const RunContext&);
 
 /// Plan with the product of the sides as count, and their number as dimension.

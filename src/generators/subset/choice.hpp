@@ -13,7 +13,7 @@
 
 namespace stipple::generators::subset {
 
-/// Row indices of points; in results ascending.
+/// Row indices of points. Functions return them in ascending order.
 using Rows = std::vector<std::size_t>;
 
 // kernel_choice.cpp
@@ -32,7 +32,7 @@ kernels::Columns columns_of(const kernels::Columns& points, const Rows& rows,
 // partition.cpp
 
 /// @param sets must divide the number of points
-/// @param values budget of kernel evaluations; the first few rounds are made in any case
+/// @param values budget of kernel evaluations, exceeded if the first few rounds need more
 std::vector<Rows> part_by_kernel(const kernels::Kernel& kernel, const kernels::Columns& points,
                                  std::size_t sets, double values, std::uint64_t seed,
                                  const RunContext& run);

@@ -53,7 +53,7 @@ STIPPLE_WIDE void add_difference(const double* values, const double* less, std::
     for (std::size_t j = 0; j < count; ++j) sums[j] += values[j] - less[j];
 }
 
-/// Scores of the points of a tile, P_j + K_jj / 2 - weight m_j with P and m as above.
+/// Scores P_j + K_jj / 2 - weight m_j of a tile's points, from `sums`, `halves` and `means`.
 STIPPLE_WIDE void score(const double* sums, const double* halves, const double* means,
                         double weight, std::size_t count, double* scores) {
     for (std::size_t j = 0; j < count; ++j) scores[j] = (sums[j] + halves[j]) - weight * means[j];
@@ -63,7 +63,7 @@ STIPPLE_WIDE void subtract(const double* values, std::size_t count, double* scor
     for (std::size_t j = 0; j < count; ++j) scores[j] -= values[j];
 }
 
-/// Minimum of a tile's values, by halving, because a loop over a single minimum does not vectorise.
+/// Minimum of a tile's values. Halves the tile repeatedly, since such loops can be vectorised.
 /// @param room buffer for `count` values
 STIPPLE_WIDE double least(const double* numbers, std::size_t count, double* room) {
     for (std::size_t j = 0; j < count; ++j) room[j] = numbers[j];
@@ -136,7 +136,7 @@ class Herding {
         descend();
         best_ = now_;
         double best_cost = cost();
-        // A single point has already been compared with all others.
+        // For n_ = 1, descend() has already compared all points.
         while (n_ > 1 && left()) {
             perturb();
             descend();
@@ -173,9 +173,9 @@ class Herding {
         now_.halves[i] = kernel_.diagonal(row_.data()) / 2;
     }
 
-    /// Point with the lowest score, with the means times `weight`: for the current potentials
-    /// (look), after point i was added to them (grow), or as if point i were removed (remove). A
-    /// scan with `remove` stores the kernel values of point i in removed_.
+    /// Point with the lowest score, with the means times `weight`. Step::look takes the potentials
+    /// as they are; grow first adds K(x_i, .) to them; remove only subtracts it from the scores,
+    /// and stores it in removed_.
     Best scan(Step step, std::size_t i, double weight) {
         constexpr std::size_t tiles = 32;
         if (step != Step::look) points_.row(i, row_.data());
@@ -209,7 +209,7 @@ class Herding {
         return {found, first + static_cast<std::size_t>(at - scores.data())};
     }
 
-    /// Adds K(x_j, .) to the potentials, and subtracts that of the point of the last scan(remove).
+    /// Adds K(x_j, .) to the potentials and subtracts removed_, stored by the last scan(remove).
     void exchange(std::size_t j) {
         constexpr std::size_t tiles = 32;
         points_.row(j, row_.data());
@@ -311,7 +311,7 @@ class Herding {
     std::uint64_t drawn_ = 0;
     RunContext run_;
     std::vector<double> means_;
-    std::vector<double> removed_;  ///< kernel values of the point of the last scan(remove)
+    std::vector<double> removed_;  ///< K(x_i, .) for i of the last scan with Step::remove
     std::vector<double> row_;
     double largest_ = 0;  ///< largest K(x, x)
     Chosen now_;

@@ -7,10 +7,10 @@
 //
 //     2 (K_ii + K_jj - 2 K_ij - D_i + D_j),    D_x = sum_(a in A) K(x, a) - sum_(b in B) K(x, b),
 //
-// so for each i in turn the best j is exchanged. The means of K are not needed: all points stay.
+// so for each i in turn the best j is exchanged. The means of K cancel, since no point is dropped.
 //
 // Cost    some 8 n^2 values of K per pair. Every round roughly halves the squared discrepancies,
-//         until they are those of n well-chosen points.
+//         until they are as small as those of n well-chosen points.
 // Promise depends only on the points, the number of sets, the seed and the number of values, not on
 //         the number of threads.
 // Source  this program's own; for halving by kernels see R. Dwivedi, L. Mackey, "Kernel thinning",
@@ -58,7 +58,7 @@ class Trade {
         }
     }
 
-    /// Exchanges points until no exchange helps, in at most 8 sweeps; returns their number.
+    /// Exchanges points, in at most 8 sweeps, until no exchange helps; returns how many were made.
     std::size_t go() {
         constexpr int most_sweeps = 8;
         std::size_t all = 0;
@@ -84,7 +84,7 @@ class Trade {
         return rows;
     }
 
-    /// Kernel values of a column's point with all points. Exchanges permute places, not columns.
+    /// Kernel values of the point of `column` with all points. Exchanges do not reorder columns.
     void fill(std::size_t column, std::vector<double>& values) {
         points_.row(column, row_.data());
         for (std::size_t first = 0; first < 2 * n_; first += tile)
@@ -120,7 +120,7 @@ class Trade {
     Rows rows_;  ///< row of the point at each place
     Columns points_;
     Rows columns_ = places();          ///< index in points_ of the point at each place
-    std::vector<double> differences_;  ///< D of each column's point
+    std::vector<double> differences_;  ///< D_x, defined at the top, of each column's point x
     std::vector<double> diagonals_;
     std::vector<double> values_;
     std::vector<double> others_;
@@ -150,8 +150,8 @@ std::vector<Rows> dealt(std::size_t count, std::size_t sets, std::uint64_t seed,
     return all;
 }
 
-/// Pairs of a round of a tournament, by the circle method: if their number is even, the last set
-/// stays in place and the others rotate.
+/// Pairs of sets in a round of a tournament, by the circle method: for an even number of sets, the
+/// last one stays in place and the others rotate.
 std::vector<std::array<std::size_t, 2>> pairs_of(std::size_t round, std::size_t sets) {
     const std::size_t ring = sets % 2 == 0 ? sets - 1 : sets;
     std::vector<std::array<std::size_t, 2>> pairs;

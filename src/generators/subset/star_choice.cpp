@@ -66,7 +66,7 @@ PointSet set_of(const PointSet& points, const Rows& rows) {
     return set;
 }
 
-/// Coordinate comparisons allowed for one measurement; then its value may be only a lower bound.
+/// Coordinate comparisons allowed for one measurement; if it needs more, it gives a lower bound.
 constexpr std::uint64_t work_of_measure = std::uint64_t{1} << 30;
 
 /// Finds the worst box, or stops at a box whose value is at least `enough`.
@@ -113,7 +113,7 @@ class BadBoxes {
         for (Box& box : boxes_) count(box, set);
     }
 
-    /// Selects the boxes in which one exchange may lead to an excess of `most` points.
+    /// Selects the boxes whose excess may become `most` or more by one exchange.
     void look_at(double most) {
         critical_.clear();
         for (std::size_t b = 0; b < boxes_.size(); ++b)
@@ -123,7 +123,7 @@ class BadBoxes {
             }
     }
 
-    /// Points that may replace point i such that no selected box has an excess of `most`.
+    /// Points that may replace point i so that the excess of each selected box stays below `most`.
     [[nodiscard]] Bits allowed(const Bits& set, std::size_t i, double most) const {
         Bits points(words_);
         for (std::size_t w = 0; w < words_; ++w) points[w] = ~set[w];
@@ -137,7 +137,7 @@ class BadBoxes {
             const double least = box.excess + change - (closed ? 0 : 1);
             if (least >= most) return Bits(words_);
             if (least + 1 < most) continue;
-            // The new point must be outside closed boxes, which are too full, and inside open ones.
+            // The new point must be outside a too full closed box and inside a too empty open one.
             for (std::size_t w = 0; w < words_; ++w)
                 points[w] &= closed ? ~box.members[w] : box.members[w];
         }
@@ -240,7 +240,7 @@ class StarExchanges {
         boxes_.add(found, in_);
     }
 
-    /// Makes the best of some exchanges if it lowers the value. False if no exchange is promising.
+    /// Tries promising exchanges; makes the best if it lowers the value. False if there are none.
     bool step() {
         const double bound = now_.value * static_cast<double>(n_) * (1 - 1e-12);
         boxes_.look_at(bound);

@@ -140,7 +140,7 @@ std::uint64_t count_of_file(std::uint64_t asked, std::uint64_t all, const Values
     return count;
 }
 
-/// Plan for a file. Reads only its first rows, so the count may remain undecided.
+/// Plan for a file. Only its first rows are read, so without a requested count the count is 0.
 Plan plan_for_file(const Request& request, const Values& options) {
     const std::size_t d = io::width_of_given(from.name, options[from]);
     if (request.dimension.value_or(d) != d)
@@ -172,7 +172,7 @@ Plan plan(const Request& request, const Values& options) {
     if (sets > 1 && !request.count && options.given(candidates))
         complete.count = candidates_for(0, options);
     const Plan plan = default_plan(complete, sets > 1 ? 64 * sets : 64);
-    if (plan.count > std::uint64_t{1} << 48) return plan;  // rejected when memory is requested
+    if (plan.count > std::uint64_t{1} << 48) return plan;  // fails later, for lack of memory
     const std::uint64_t all = candidates_for(plan.count, options);
     if (sets > 1 && plan.count != all)
         fail(ErrorKind::usage,
@@ -252,7 +252,7 @@ struct Task {
 };
 
 std::vector<Rows> choose(const Task& task, const RunContext& run) {
-    // Fraction of the kernel evaluations if star measurements follow.
+    // Fraction of the kernel evaluations that is spent if star measurements follow.
     constexpr double start = 0.05;
     const double share = task.star ? start : 1;
     const RunContext first = run.stage(0, share);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double piece = 1024;  // number of trials between two changes of the accepted fraction
 constexpr double gain = 0.02;   // change of the temperature's logarithm per accepted trial
-// Polishing: the last trials of maximin, which search beyond the value reached.
+// Polishing: the last trials of maximin; their target is 1 above the squared distance reached.
 constexpr double polish_from = 0.8;    // fraction of the trials before polishing
 constexpr double polish_share = 2e-3;  // accepted fraction at the start of polishing
 
@@ -31,7 +31,7 @@ Exchanges::Exchanges(Design design, const Rules& rules)
             row_at_[k * design_.points + static_cast<std::size_t>(design_.along(k)[i])] = i;
 }
 
-/// Row to exchange with row a: one of a's group, or one whose level is in the same coarse stratum;
+/// Random row to exchange with row a: of its group, or with a level in the same coarse stratum;
 /// a itself if there is no other.
 std::size_t Exchanges::partner(SplitMix64& draws, std::size_t k, std::size_t a) const {
     const auto other = [&](std::size_t first, std::size_t last, std::size_t but) {
@@ -110,7 +110,7 @@ std::size_t Exchanges::make_feasible(SplitMix64& draws, const RunContext& run) {
         }
     }
     if (wrong == 0) return 0;
-    wrong = 0;  // without those that the last pass repaired
+    wrong = 0;  // counted again, since the last pass repaired some
     for (std::size_t row = rules_.fixed; row < design_.points; ++row) wrong += !fits(row);
     return wrong;
 }
@@ -181,7 +181,7 @@ Annealing::Annealing(const Objective& objective, const Design& start, const Rule
     temperature_ *= schedule.first_share;
 }
 
-/// Cost of visiting all pairs, in trials; negligible for few points.
+/// Cost of visiting all pairs, in trials; 0 for up to 1000 points, where it is negligible.
 double Annealing::pass() const {
     const std::size_t points = exchanges_.design().points;
     return points > 1000 ? static_cast<double>(points / 4) : 0;

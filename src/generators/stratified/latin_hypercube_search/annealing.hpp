@@ -38,7 +38,7 @@ class Exchanges {
   public:
     Exchanges(Design design, const Rules& rules);
 
-    /// Draws a random exchange; false if the rules, apart from feasibility, forbid it.
+    /// Draws a random exchange, maybe infeasible; false if the drawn rows cannot be exchanged.
     bool draw(SplitMix64& draws, Exchange& exchange) const;
 
     /// Number of the exchange's two points that would be infeasible after it.
@@ -47,7 +47,7 @@ class Exchanges {
     void make(const Exchange& exchange);
     [[nodiscard]] const Design& design() const { return design_; }
 
-    /// Exchanges levels until all points are feasible; returns 0 if they are.
+    /// Exchanges levels to make all points feasible; returns the number of infeasible points left.
     std::size_t make_feasible(SplitMix64& draws, const RunContext& run);
 
     /// Makes all points feasible, then makes `times` random exchanges per level.
@@ -65,10 +65,10 @@ class Exchanges {
     const Rules& rules_;
     std::vector<std::uint32_t> group_;   ///< group of each row; empty: one group
     std::vector<std::uint32_t> row_at_;  ///< row of each level, by coordinate; only with groups
-    std::vector<Level> row_;             ///< buffer for the levels that are checked
+    std::vector<Level> row_;             ///< buffer of fits() for the levels to check
 };
 
-/// Best design so far: an earlier design and the exchanges since, so improvements need no copy.
+/// Best design so far, as an earlier design and exchanges, so that improvements need no copy.
 class Trail {
   public:
     explicit Trail(Design start) : best_(std::move(start)) {}
@@ -86,7 +86,7 @@ class Trail {
     Design best_;                  ///< an earlier design, before the steps
     std::vector<Exchange> steps_;  ///< exchanges made since then
     std::size_t mark_ = 0;         ///< number of steps that lead to the best design
-    bool left_ = false;            ///< true after too many steps: the next mark is a copy
+    bool left_ = false;            ///< later steps were dropped, so mark() must copy the design
 };
 
 class Annealing {
@@ -95,8 +95,8 @@ class Annealing {
     Annealing(const Objective& objective, const Design& start, const Rules& rules,
               const Schedule& schedule, SplitMix64 draws, const RunContext& run);
 
-    /// Makes `trials` more of the trials, or fewer if nothing more can be gained.
-    /// @throws Error(cancelled), having recorded the best so far if the run keeps it
+    /// Makes `trials` more of the schedule's trials, or fewer if the score cannot improve any more.
+    /// @throws Error(cancelled), after updating best() if run.keeps_best
     void advance(double trials, const RunContext& run);
 
     /// Best design so far and its score. Maximin compares only the start and designs that reach a

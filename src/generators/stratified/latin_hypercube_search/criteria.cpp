@@ -129,8 +129,8 @@ Found described_correlations(const std::vector<Level>& x, std::size_t d) {
             {"root_mean_square_correlation", format_number(std::sqrt(mean))}};
 }
 
-/// Energy and score by correlations: integer sums of products, one for every two coordinates. An
-/// exchange changes d - 1 of them.
+/// Correlation criterion, from integer sums of products, one sum for every two coordinates. An
+/// exchange changes d - 1 of these sums.
 class CorrelationCriterion final : public Criterion {
   public:
     CorrelationCriterion(const Design& design, const Rules& rules)

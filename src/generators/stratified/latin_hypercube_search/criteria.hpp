@@ -3,7 +3,7 @@
 // Criteria for the optimisation of Latin hypercubes. Distances are Euclidean, between levels 0,
 // ..., n - 1; x are the middles of the strata, (2 level + 1) / (2 n).
 //
-//     maximin        the minimum squared distance, maximised; then the number of pairs that have it
+//     maximin        the minimum squared distance, maximised; if equal, the fewest pairs with it
 //     phi_p          (sum over pairs of d^-p)^(1/p)
 //     audze_eglais   sum over pairs of d^-2
 //     centered_l2    the squared centered L2 discrepancy of x (math/l2/kinds.hpp)
@@ -14,13 +14,13 @@
 // in O(d):
 //
 //     maximin        sum over pairs of max(0, target - d^2); the target rises once the sum is 0
-//     centered_l2    n^2 times the square, without its constant
+//     centered_l2    n^2 times the squared discrepancy, without its constant term
 //     correlation    sum over pairs of coordinates of the fourth power of the correlation
 //     others         the sum over pairs
 //
 // Promise  energies of maximin are whole numbers, and exact.
 // Source   phi_p: M. D. Morris, T. J. Mitchell, J. Statist. Plann. Inference 43 (1995) 381-402,
-//          doi:10.1016/0378-3758(94)00035-T. Audze-Eglais, and sums without further factors as in
+//          doi:10.1016/0378-3758(94)00035-T. Audze-Eglais, summed without further factors, as in
 //          the tables of spacefillingdesigns.nl: B. G. M. Husslage, G. Rennen, E. R. van Dam,
 //          D. den Hertog, Optim. Eng. 12 (2011) 611-630, doi:10.1007/s11081-010-9129-8. maxpro:
 //          V. R. Joseph, E. Gul, S. Ba, Biometrika 102 (2015) 371-380, doi:10.1093/biomet/asv002.
@@ -97,8 +97,8 @@ double usual_square(std::size_t points, std::size_t dimension);
 double reported(const Objective& objective, const Score& score, std::size_t points,
                 std::size_t dimension);
 
-/// Results by name: the criterion's value over all points, and related quantities; without infinite
-/// ones, which occur if points share a level. O(n^2 d).
+/// Named results: the criterion's value over all points, and related quantities. Infinite ones,
+/// which occur if points share a level, are left out. Takes O(n^2 d).
 std::vector<std::pair<std::string, std::string>> described(const Objective& objective,
                                                            const Design& design, const Rules& rules,
                                                            const RunContext& run);

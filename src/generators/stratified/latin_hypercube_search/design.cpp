@@ -52,7 +52,7 @@ Lattice drawn(std::size_t size, std::size_t dimension, SplitMix64& draws) {
     return lattice;
 }
 
-/// Most promising of some random lattices: many of size n + 1, or a few of any size.
+/// Random lattice with the largest promise_of(): of many of size n + 1, or of a few of any size.
 Lattice chosen(std::size_t points, std::size_t dimension, SplitMix64& draws) {
     const bool next = draws.below(3) == 0;
     const int tries = next ? 300 : 20;

@@ -15,8 +15,8 @@ namespace stipple::latin_hypercube_search {
 
 using Level = std::int32_t;
 
-/// Levels 0, ..., points - 1, one coordinate after the other. Spare rows, after the points, hold
-/// levels of no point, or -1. A point that exchanges levels with a spare row moves to that stratum.
+/// Levels 0, ..., points - 1 of all rows, one coordinate after the other. Rows after the points are
+/// spare: they hold unused levels, or -1. A point may exchange its level with that of a spare row.
 struct Design {
     Design(std::size_t points_, std::size_t rows_, std::size_t dimension_)
         : points(points_), rows(rows_), dimension(dimension_), levels(rows_ * dimension_, -1) {}
@@ -44,7 +44,7 @@ Design lattice_start(std::size_t points, std::size_t dimension, SplitMix64& draw
 
 /// Coordinate whose levels represent outcomes of a parameter; equal outcomes are consecutive.
 struct Axis {
-    std::vector<Level> places = {};  ///< position of each level, for distances; empty: the level
+    std::vector<Level> places = {};  ///< position of a level, for distances; empty: its number
     Level parts = 0;                 ///< number of outcomes; 0: the coordinate is continuous
     Level apart = 0;                 ///< squared distance of two categories; 0: no categories
 
@@ -71,7 +71,7 @@ struct Rules {
     std::size_t fixed = 0;  ///< number of leading rows that never change
 
     /// Ends of groups of consecutive rows; empty: one group. Levels are exchanged only within a
-    /// group, or between rows whose levels are in the same coarse stratum of `coarse` levels.
+    /// group, or within a coarse stratum of `coarse` consecutive levels.
     std::vector<std::size_t> groups = {};
     Level coarse = 1;
 

@@ -29,7 +29,7 @@ STIPPLE_INLINE double lane_sum(std::size_t n, Term term) {
            ((sums[2] + sums[6]) + (sums[3] + sums[7]));
 }
 
-/// Values of the pairs of a point that moves along a coordinate; x are the others' positions.
+/// A point that moves along a coordinate: the values of its pairs, and all points' positions x.
 template <class Value>
 struct Row {
     const Value* pairs;
@@ -87,7 +87,7 @@ STIPPLE_INLINE void raise(double* r, std::size_t n, int power) {
     for (std::size_t l = 0; l < n; ++l) r[l] = result[l];
 }
 
-/// Returns scale / squared distance; coinciding points (discrete axes) are half a level apart.
+/// Returns scale / squared distance; coinciding points (discrete axes) count as half a level apart.
 STIPPLE_INLINE double over(double scale, Level square) {
     return scale / std::max(0.25, static_cast<double>(square));
 }
@@ -118,7 +118,7 @@ STIPPLE_WIDE double power_change(const Row<Level>& row, int power, double scale)
                           : powers_by(row, power, scale, Change(row));
 }
 
-/// Factor 1 + |z|/2 + |z'|/2 - |z - z'|/2 of the centered discrepancy, z = 2 a unit, z' = 2 b unit.
+/// Factor 1 + (|z| + |z'| - |z - z'|) / 2 of the centered discrepancy, z = 2 unit a, z' = 2 unit b.
 STIPPLE_INLINE double centered_factor(double a, double b, double unit) {
     return 1 + (std::abs(a) + std::abs(b) - std::abs(a - b)) * unit;
 }
@@ -134,13 +134,13 @@ STIPPLE_WIDE double centered_change(const Row<double>& row, double n) {
            });
 }
 
-/// Distance of two positions along an axis plus `more`, at least 0.5, as it is a divisor.
+/// Distance of two positions (categories: 0 or `far`) plus `more`; at least 0.5, to divide by it.
 STIPPLE_INLINE double gap_between(Level a, Level b, double far, double more) {
     const double difference = far == 0 ? std::abs(static_cast<double>(a - b)) : a == b ? 0 : far;
     return std::max(0.5, difference + more);
 }
 
-/// @param far distance of two categories; 0: the axis has none, and positions give the distance
+/// @param far distance of two categories; 0: no categories, distances are those of positions
 STIPPLE_INLINE double projections_by(const Row<double>& row, double far, double more) {
     return lane_sum(row.size, [&](std::size_t j) {
         const double now = row.pairs[j];
@@ -155,7 +155,7 @@ STIPPLE_WIDE double projection_change(const Row<double>& row, double more) {
                           : projections_by(row, std::sqrt(row.apart), more);
 }
 
-/// Squared distances: each coordinate adds a term.
+/// Values of pairs that are squared distances: each coordinate adds a term.
 struct Distances {
     using Value = Level;
     static constexpr Level start = 0;
@@ -194,7 +194,7 @@ struct Powers : Distances {
     }
 };
 
-/// Products of a pair, with a factor for each coordinate.
+/// Values of pairs that are products, with a factor for each coordinate.
 template <class Factor>
 struct Products : Factor {
     using Value = double;
@@ -221,7 +221,7 @@ struct CenteredFactor {
     [[nodiscard]] double factor(Level a, Level b) const {
         return centered_factor(2 * a + 1 - n, 2 * b + 1 - n, 1 / (4 * n));
     }
-    /// Mean of factor() over the other point: 1 + |z|/2 - z^2/2.
+    /// Mean of factor() over the other point: 1 + z/2 - z^2/2 at the distance z from the middle.
     [[nodiscard]] double mean_factor(Level a) const {
         const double z = std::abs(2 * a + 1 - n) / (2 * n);
         return 1 + (z - z * z) / 2;
@@ -317,7 +317,7 @@ class PairCriterion final : public Criterion {
                 places_[k * stride_ + i] = rules.axis(k).place(design.along(k)[i]);
         pairs_.reserve(points_ * width_);
         for (std::size_t i = 0; i < points_; ++i) {
-            run_.check_stop();  // first use of that much memory takes a second
+            run_.check_stop();  // filling large memory may take a second
             pairs_.resize((i + 1) * width_, Measure::neutral);
         }
         rebuild();
@@ -342,7 +342,7 @@ class PairCriterion final : public Criterion {
         std::swap(places(k)[a], places(k)[b]);
         energy_ += change;
         largest_ = std::max(largest_, std::abs(energy_));
-        constexpr std::uint64_t often = 1 << 14;  // exchanges until rounding errors are removed
+        constexpr std::uint64_t often = 1 << 14;  // exchanges between removals of rounding errors
         if (++exchanges_ % often == 0) rebuild();
     }
 

@@ -32,20 +32,20 @@ struct Candidate {
     Score score;
 };
 
-/// Whether a score is lower by more than rounding errors.
+/// Whether `one` is lower than `other` by more than rounding errors.
 bool is_better(const Score& one, const Score& other) {
     const double room = 1e-12 * std::abs(other.value);
     if (std::abs(one.value - other.value) > room) return one.value < other.value;
     return one.second < other.second - 1e-12 * std::abs(other.second);
 }
 
-/// Trials of the stages of a search: a few, then twice as many from stage to stage. A smaller total
-/// gives the first stages of a larger one.
+/// Numbers of trials of a search's stages: few at first, then doubling. A smaller total gives the
+/// first stages of a larger one.
 std::vector<double> stages_of(double trials, double usual, std::size_t points) {
     constexpr double few = 96;
     std::vector<double> stages{few};
     const double least = std::min(usual / 8, 64 * static_cast<double>(points));
-    double sum = usual;  // total trials after a stage of sum / 2 trials
+    double sum = usual;  // total if the next stage has sum / 2 trials
     while (sum / 2 >= least) sum /= 2;
     for (; sum <= trials; sum *= 2) stages.push_back(sum / 2);
     return stages;
@@ -71,7 +71,7 @@ class Rounds {
     }
 
   private:
-    static constexpr std::uint64_t stream = std::uint64_t{1} << 33;  // not used by the generator
+    static constexpr std::uint64_t stream = std::uint64_t{1} << 33;  // the generator uses others
     static constexpr std::size_t most_kept = 4;
     static constexpr double cold = 1e-3;  // initial accepted fraction if the start is already good
 
@@ -197,7 +197,7 @@ std::vector<std::uint8_t> half_of_plain_changes(std::size_t n) {
     const std::vector<std::uint8_t> fewer = half_of_plain_changes(n - 1);
     std::vector<std::uint8_t> changes;
     for (std::size_t i = 0; i <= fewer.size(); ++i) {
-        const bool down = i % 2 == 0;  // direction of the last item
+        const bool down = i % 2 == 0;  // the last item moves to lower positions
         for (std::size_t p = 0; p + 1 < n; ++p)
             changes.push_back(static_cast<std::uint8_t>(down ? n - 2 - p : p));
         if (i < fewer.size())
@@ -248,8 +248,8 @@ class Designs {
     Rules rules_;
     std::unique_ptr<Criterion> criterion_;
     std::vector<std::uint8_t> changes_;
-    std::vector<std::size_t> done_;  ///< number of changes made along each coordinate
-    std::vector<bool> back_;         ///< whether the coordinate undoes its changes
+    std::vector<std::size_t> done_;  ///< position of each coordinate in changes_
+    std::vector<bool> back_;         ///< whether the coordinate goes backwards through changes_
 };
 
 /// Returns the best of all designs, or the best so far if the run is stopped and keeps it.
@@ -278,7 +278,7 @@ Result best_of_all(const Objective& objective, const Design& start, const RunCon
 }  // namespace
 
 double designs_to_try(const Design& start) {
-    constexpr std::size_t most_points = 11;  // its n! / 2 plain changes take 20 MB
+    constexpr std::size_t most_points = 11;  // 11! / 2 plain changes take 20 MB
     if (start.dimension == 1) return 1;
     if (start.points > most_points) return std::numeric_limits<double>::infinity();
     double orders = 1;

@@ -2,14 +2,14 @@
 //
 // Search for the Latin hypercube that is best by a criterion (criteria.hpp).
 //
-// Stages    start with few trials, which double from one stage to the next, as long as the budget
-//           lasts: more trials add stages, so the result of fewer trials is among those that are
-//           compared.
-// Rounds    of a stage: eight short annealings, eight of three times their trials, then four that
-//           take two thirds of the trials, two of them from the best designs (annealing.hpp).
-// Starts    random exchanges of the given design. For maximin in two or three coordinates there are
-//           more annealings; three of four start near lattices, at a low temperature.
-// Targets   of maximin are up to a fiftieth beyond the best squared distance so far.
+// Stages    The first has few trials; their number doubles from one stage to the next, as long as
+//           the budget lasts. More trials add stages, so the result of fewer trials is among those
+//           that are compared.
+// Rounds    Each stage has three: eight short annealings, eight with three times their trials, and
+//           four with two thirds of the stage's trials, two of them from the best designs.
+// Starts    The given design after random exchanges. For maximin in two or three coordinates there
+//           are more annealings; three of four start near lattices, at a low temperature.
+// Targets   For maximin, up to a fiftieth beyond the best squared distance so far (annealing.hpp).
 //
 // Cost      the budget in trials of an exchange, each O(n) except for correlations, and 4 n^2 or
 //           8 n^2 bytes for each of eight annealings, two if there are more than 2000 points.
@@ -34,7 +34,7 @@ struct Search {
     double trials = 1e6;
 };
 
-/// Searches, and reports progress with `words` and the best value. @throws Error(limit, cancelled)
+/// Searches. Progress reports show `words` and the best value. @throws Error(limit, cancelled)
 Result best_design(const Search& search, const std::string& words, const RunContext& run);
 
 /// Default number of trials: about 20 seconds of one core, fewer for few points.
