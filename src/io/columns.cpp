@@ -13,13 +13,13 @@ namespace {
 
 bool measures_points(const std::string& name) { return name == "pdf" || name == "weight"; }
 
-/// Whether a coordinate name in a header would be read back as a name.
+/// Whether readers take a header field for a coordinate name; pdf and weight only if `table`.
 bool is_name(const std::string& name, bool table) {
     return is_word(name) && name != "set" && (table || !measures_points(name));
 }
 
-/// Assigns column pdf or, if missing, weight to an extra number after the coordinates; records in
-/// `density` which of them exist.
+/// Gives column pdf or, if missing, column weight the index after the coordinates. `density` gets
+/// the name; "pdf,weight" if both exist.
 void add_density(Columns& columns, const std::vector<std::string>& names) {
     for (const char* name : {"pdf", "weight"}) {
         const auto it = std::ranges::find(names, name);

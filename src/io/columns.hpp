@@ -49,8 +49,8 @@ std::optional<std::vector<std::string>> csv_fields(std::string_view line);
 /// Parses the names in an option's text, a line of CSV. @throws Error(usage)
 std::vector<std::string> parse_names(std::string_view text, std::string_view option);
 
-/// Replaces names that would not be read back from a header by the column's default name; pdf and
-/// weight are replaced only if not `table`. Returns a sentence for each replaced name.
+/// Replaces names that would not be read back from a header; the column's default name is used.
+/// Names pdf and weight are replaced only if `table` is false. Returns a sentence for each change.
 std::vector<std::string> replace_names(std::vector<std::string>& names, bool table);
 
 /// Index of the column with this name or, failing that, with this number counted from 1. `place`

@@ -25,11 +25,11 @@ constexpr auto small_powers_of_10 = [] {
 }();
 
 /// Appends `size` >= 0 as its shortest text without an exponent, cut to `precision` digits after
-/// the point; for any value and precision.
+/// the point. Works for any finite number and any precision.
 void append_cut_slowly(std::string& out, double size, int precision) {
-    std::array<char, 400> text;  // the longest, 2.2250738585072014e-308, has 327
+    std::array<char, 400> text;  // longest: 326 characters, of 2.2250738585072014e-308
     char* const begin = text.data();
-    const bool plain = size >= 1e-4 && size < 1e15;  // fmt's text has no exponent, and is faster
+    const bool plain = size >= 1e-4 && size < 1e15;  // then fmt writes no exponent, and is faster
     char* const end =
         plain ? fmt::format_to(begin, FMT_COMPILE("{}"), size)
               : std::to_chars(begin, begin + text.size(), size, std::chars_format::fixed).ptr;
@@ -42,13 +42,13 @@ void append_cut_slowly(std::string& out, double size, int precision) {
     out.append(static_cast<std::size_t>(precision - digits), '0');
 }
 
-/// As append_cut_slowly(); returns false, and appends nothing, if only that finds the digits.
+/// As append_cut_slowly() for most numbers; for others returns false and appends nothing.
 bool append_cut_fast(std::string& out, double size, int precision) {
     if (!(size < 0x1p53) || precision > 19) return false;
     const auto bits = std::bit_cast<std::uint64_t>(size);
     const int biased = static_cast<int>(bits >> 52);
     const std::uint64_t implicit = std::uint64_t{biased > 0} << 52;
-    // size = c / 2^shift; if shift > 120, size < 2^-67, and all digits are 0.
+    // size = c / 2^shift. If shift > 120, size < 2^-67, so that the first 19 digits are 0.
     const std::uint64_t c = (bits & ((std::uint64_t{1} << 52) - 1)) | implicit;
     const int shift = 1075 - std::max(biased, 1);
     const std::uint64_t whole = shift < 64 ? c >> shift : 0;

@@ -29,7 +29,7 @@ std::vector<PointSet> read_sets(std::string_view bytes, const std::string& path,
 std::vector<PointSet> read_points(const std::string& path, const ReadOptions& options,
                                   const RunContext& run, const Format* format = nullptr);
 
-/// Reads a file named by a unit's option, which must hold exactly one set.
+/// Reads the file that an option names, which must hold exactly one set.
 /// @throws Error as read_points; Error(usage) for standard input, which cannot be read twice
 PointSet read_given(std::string_view option, const std::string& path, const ReadOptions& options,
                     const RunContext& run);

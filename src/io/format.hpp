@@ -56,7 +56,7 @@ struct Layout {
     bool single = false;                   ///< float32 in binary formats
     std::optional<int> precision = {};     ///< digits after the point
     Provenance provenance = {};
-    std::optional<Box> extent = {};  ///< area that svg shows; unset: bounds, else unit cube
+    std::optional<Box> extent = {};  ///< area that svg shows; unset: provenance.bounds or unit cube
 
     [[nodiscard]] std::size_t width() const { return dimension + extras.size(); }
     [[nodiscard]] bool many_sets() const { return counts.size() > 1; }
@@ -92,7 +92,7 @@ struct ReadOptions {
     bool gaps = false;           ///< text: reads empty fields, NA and nan as NaN
     std::string strengths = {};  ///< weight column, read after the coordinates
     bool meta_beside = false;    ///< reads FILE.meta.json, too, if there is one
-    const io::CarriedMeta* beside = nullptr;  ///< contents of FILE.meta.json; set for formats
+    const io::CarriedMeta* beside = nullptr;  ///< contents of FILE.meta.json, for formats
 };
 
 struct FormatTraits {
@@ -130,7 +130,7 @@ struct Format {
                                   const RunContext&) = nullptr;
 
     /// Opens a stream that reads in blocks and takes ownership of the feed. Returns null, without
-    /// touching the feed, if its front shows that the file must be read as a whole. Null: the
+    /// touching the feed, if its front shows that the file must be read as a whole. Unset if the
     /// format cannot be read in blocks.
     std::unique_ptr<io::PointStream> (*stream)(std::unique_ptr<io::Feed>&, const ReadOptions&,
                                                const RunContext&) = nullptr;
@@ -148,7 +148,7 @@ const Format& format_named(std::string_view name);
 std::string extension_of(std::string_view path);
 
 /// Checks the extension of an output's name; accepts names without extension. @throws Error(usage)
-/// with the hint if the extension is not among `known`
+/// with `hint` if the extension is not among `known`
 void require_extension(std::string_view path, std::span<const std::string> known,
                        const std::string& hint);
 

@@ -79,7 +79,7 @@ std::string name_of_descriptor(int descriptor) {
     return fmt::format("/proc/self/fd/{}", descriptor);
 }
 
-/// Whether enough file descriptors remain for inputs after this one.
+/// Whether at least 64 file descriptors remain after this one, which inputs may need.
 bool leaves_descriptors(int descriptor) {
     constexpr rlim_t spare = 64;
     rlimit limit{};
@@ -212,7 +212,7 @@ void Output::close() {
 }
 
 /// Links the unnamed file to the target's name. If the target exists, links the file to a temporary
-/// name, which commit() changes.
+/// name, from which commit() renames it.
 void Output::name_it() {
     const std::string unnamed = name_of_descriptor(descriptor_);
     const auto link_as = [&](const std::string& name) {
@@ -257,7 +257,7 @@ Outputs::~Outputs() {
         names_->rewind();
         NameBuffer buffer;
         for (; take_text(*names_, buffer); take_text(*names_, buffer)) ::unlink(buffer.data());
-    } catch (...) {  // the names cannot be read: the files stay
+    } catch (...) {  // the names cannot be read, so the files are not removed
     }
 }
 

@@ -105,7 +105,7 @@ class Outputs {
   private:
     void set_aside();
 
-    std::list<Output> files_;       ///< open files: unnamed, written in place, or the last one
+    std::list<Output> files_;       ///< unnamed files, files written in place, and the last file
     std::unique_ptr<Spool> names_;  ///< temporary and final names of the other files
 };
 

@@ -172,7 +172,7 @@ class RawStream final : public PointStream {
     std::unique_ptr<Feed> feed_;
     RawShape shape_;
     std::string source_;
-    std::string hint_;  ///< for messages, if FILE.meta.json states the number of points
+    std::string hint_;  ///< hint of errors if FILE.meta.json states the number of points
     Columns columns_;
     Provenance provenance_;
     std::size_t set_ = 0;
@@ -226,8 +226,8 @@ class JoinedStream final : public PointStream {
     }
 
   private:
-    /// Advances by `count` points, or to the end. step(done) advances within the current file and
-    /// returns by how many points; `done` counts the points advanced so far.
+    /// Advances by `count` points, or to the end; returns by how many. step(done) does it in the
+    /// current file, after the first `done` points.
     template <class Step>
     std::uint64_t through_parts(std::uint64_t count, const Step& step) {
         std::uint64_t got = 0;
@@ -246,7 +246,7 @@ class JoinedStream final : public PointStream {
         shards_ = shards_ && !part_->provenance().shard.empty();
     }
 
-    /// Checks that a file with a shard of the set is the next one that is due.
+    /// Checks that the shard of a file is the one expected in its place. @throws Error(input)
     void require_shard(std::size_t file, const std::string& shard) const {
         const std::string of = shard.substr(shard.find('/') + 1);
         if (shard == fmt::format("{}/{}", file, of)) return;
@@ -323,7 +323,7 @@ class JoinedStream final : public PointStream {
         return true;
     }
 
-    /// Whether this file is the last of as many shards as there are files.
+    /// Whether this file is the last shard of a set with as many shards as there are files.
     [[nodiscard]] bool ends_set() const {
         return part_->provenance().shard == fmt::format("{}/{}", at_, paths_.size());
     }
@@ -357,7 +357,7 @@ class JoinedStream final : public PointStream {
     std::size_t at_;
     std::unique_ptr<PointStream> part_;
     Provenance whole_;  ///< provenance of the first file, with the level names of all so far
-    std::vector<std::vector<double>> numbers_;  ///< joint indices of this file's level names
+    std::vector<std::vector<double>> numbers_;  ///< by coordinate: new indices of its levels
     std::uint64_t count_ = 0;
     bool begun_ = false;
     bool ended_ = false;

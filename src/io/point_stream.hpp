@@ -88,13 +88,13 @@ struct JoinedFile {
 /// names or level names if both files have these
 void require_alike(const JoinedFile& file, const JoinedFile& first);
 
+using Opener = std::function<std::unique_ptr<PointStream>(const std::string& path)>;
 /// Concatenates files of one set each into one set; each file is opened when it is needed. If the
 /// files are all shards of one set, the provenance is that of the whole set; otherwise it holds
 /// only what they have in common. New level names of later files get the next indices.
 /// @param first index of the file to begin with
 /// @throws Error(input) as require_alike(), but accepts other level names; for a file with several
 /// sets; and for shards of one set that are out of order
-using Opener = std::function<std::unique_ptr<PointStream>(const std::string& path)>;
 std::unique_ptr<PointStream> join_points(std::vector<std::string> paths, Opener open,
                                          const RunContext& run, std::size_t first = 0);
 

@@ -194,8 +194,8 @@ bool take_comment_line(std::string_view line, Provenance& provenance) {
     if (colon == std::string_view::npos) return false;
     const Json value = try_parse_json(line.substr(colon + 2));
     if (!value.is_discarded()) return take(line.substr(0, colon), value, provenance);
-    // A number beyond the range of doubles is not valid JSON: it is passed on as text, to be
-    // recorded as a flaw. Other text is ignored.
+    // A number beyond the range of doubles is not valid JSON. It is passed on as text, so that
+    // take() records a flaw. Other text that is not JSON is ignored.
     const std::string text(line.substr(colon + 2));
     if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string::npos)
         return false;

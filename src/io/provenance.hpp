@@ -16,7 +16,7 @@ namespace stipple::io {
 /// Always has the keys tool, version, generator, options, seed, count, dimension, start, warps,
 /// domain and command; seed, start and domain are null if unknown. Has columns, levels, bounds and
 /// shard if set; efficiency if points were dropped; precision and dtype if numbers were rounded;
-/// inputs if files were read; found if a search was made; stream_versions if above 1.
+/// inputs if files were read; `found` if a search was made; stream_versions if above 1.
 nlohmann::ordered_json to_json(const Provenance& provenance);
 
 /// Parses the known keys and ignores the others.
@@ -29,8 +29,8 @@ std::string to_comment_lines(const Provenance& provenance, std::string_view begi
 /// Parses a line "key: value" of to_comment_lines(), without "# ". Returns false for other lines.
 bool take_comment_line(std::string_view line, Provenance& provenance);
 
-/// Warns if a file's first set has another number of points than its provenance states. It may have
-/// been cut off, but also edited, so this is no error.
+/// Warns if a file's first set has another number of points than its provenance states. The file
+/// may have been cut off, but also edited, so this is no error.
 void note_count(const std::string& source, const Provenance& stated, std::uint64_t found,
                 const RunContext& run);
 

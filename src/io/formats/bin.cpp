@@ -36,7 +36,7 @@ std::unique_ptr<PointStream> stream(std::unique_ptr<Feed>& feed, const ReadOptio
         shape.count = options.beside->provenance.count;
     }
     ReadOptions inner = options;
-    inner.dimension.reset();  // here it is the row's width, before columns are picked
+    inner.dimension.reset();  // was the width of the file's rows, not of the picked columns
     return stream_raw(std::move(feed), shape, inner);
 }
 

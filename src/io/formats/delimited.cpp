@@ -436,7 +436,7 @@ std::vector<std::uint64_t> set_starts(const SourceText& text, const Rows& rows,
                                       std::size_t dimension) {
     std::vector<std::uint64_t> starts{0};
     for (const Mark& mark : rows.marks) {
-        if (mark.row == 0) continue;  // `#` lines before the first point
+        if (mark.row == 0) continue;  // a separator before the first point begins no set
         if (mark.row == starts.back() || mark.row * dimension == rows.numbers.size())
             text.refuse(mark.at, "a set without points; a line such as this separates two sets");
         starts.push_back(mark.row);
@@ -474,8 +474,8 @@ namespace {
 /// Groups rows by set number; sets are ordered by their first rows.
 std::vector<PointSet> gather_sets(Rows rows, std::size_t dimension, const Provenance& provenance) {
     std::vector<Mark>& marks = rows.marks;
-    // Every block marks its first set number again; such repetitions are removed. `#` lines do not
-    // separate the sets of a table.
+    // Removes the marks of `#` lines, which do not separate the sets of a table, and repetitions:
+    // every block marks its first set number again.
     std::erase_if(marks, [](const Mark& mark) { return std::isnan(mark.number); });
     const auto same = [](const Mark& a, const Mark& b) { return a.number == b.number; };
     marks.erase(std::unique(marks.begin(), marks.end(), same), marks.end());
@@ -506,7 +506,7 @@ struct TableHead {
     bool names = false;          ///< the first line is a header
     bool row_names = false;      ///< the first column has no name and holds row names
     std::string counter = {};    ///< name of a coordinate column that numbers the rows
-    std::string measure = {};    ///< column pdf or weight, if the coordinates have names
+    std::string measure = {};    ///< column pdf or weight, if its use must be reported
     const char* body = nullptr;  ///< start of the rows
     bool words_to_find = false;  ///< the first row has words that are not known levels
     /// Sentences on replaced names.
@@ -559,7 +559,7 @@ bool counts_rows(const SourceText& text, const char* body, char separator) {
     return counts && rows >= few && (first == 0 || first == 1);
 }
 
-/// Whether the first fractional number has a decimal comma. Levels, such as 1,5, are not numbers.
+/// Whether the first fractional number has a decimal comma. Skips columns with level names.
 bool has_decimal_comma(const SourceText& text, const TableHead& head) {
     bool comma = false;
     const char separator = head.dialect.separator;
@@ -795,7 +795,7 @@ class DelimitedStream final : public PointStream {
         for (const Mark& mark : rows_.marks) {
             if (numbered()) break;
             const Cut cut{part_begin_ + mark.row, text.line_of(mark.at)};
-            if (cut.row == 0) continue;  // `#` lines before the first point
+            if (cut.row == 0) continue;  // a separator before the first point begins no set
             if (cut.row == last_cut_.row) refuse_empty(cut.line);
             marks_.push_back(cut);
             last_cut_ = cut;

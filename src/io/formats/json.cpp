@@ -192,7 +192,7 @@ class Reader {
         return keys_.size() - 1;
     }
 
-    /// Index of the name in the first record. `place` is a guess: the order is usually the same.
+    /// Index of a name of the first record. Tries `place` first: the order is usually the same.
     [[nodiscard]] std::size_t column_of(std::string_view key, std::size_t place) const {
         if (place < keys_.size() && keys_[place] == key) return place;
         const auto it = std::ranges::find(keys_, key);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Data besides the points, common to json and jsonl:
+// The head: JSON before the points, common to json and jsonl:
 //
 //     {"format":"stipple.points","version":1,"meta":{...},"dimension":2,"count":1024
 #pragma once
@@ -19,7 +19,7 @@
 
 namespace stipple::io {
 
-/// Writes the text above, without a closing brace. Extras add "columns":["x","y","pdf"].
+/// Returns the head as text, without a closing brace. Extras add "columns":["x","y","pdf"].
 std::string json_head(const Layout& layout, const Counts& counts);
 
 struct JsonHead {
@@ -27,7 +27,7 @@ struct JsonHead {
     std::vector<std::string> columns = {};  ///< empty: not given
     std::optional<std::uint64_t> dimension = {};
     std::vector<std::uint64_t> counts = {};  ///< per set, or one for all sets; empty: not given
-    const char* dimension_at = nullptr;      ///< position in the text, for messages
+    const char* dimension_at = nullptr;      ///< where the text states it, for messages
     const char* counts_at = nullptr;
 };
 

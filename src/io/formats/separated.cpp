@@ -12,7 +12,7 @@
 namespace stipple::io {
 namespace {
 
-/// Quotes a text if it contains a separator of the reader.
+/// Quotes a text if it contains a character that the reader accepts as separator.
 std::string field(const std::string& text) {
     return text.find_first_of(",; \t") == std::string::npos ? text : "\"" + text + "\"";
 }

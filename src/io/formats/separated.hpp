@@ -7,7 +7,7 @@
 
 namespace stipple::io {
 
-/// Adds the functions that read any separator, and write commas or tabs.
+/// Adds functions to `format`: they read any separator, and write tabs if `tabs`, else commas.
 Format separated_values(Format format, bool tabs);
 
 }  // namespace stipple::io

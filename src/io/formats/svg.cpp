@@ -4,8 +4,8 @@
 // units. The radius of the disks is 0.15 times the mean distance sqrt(area / n), between 0.5 and 10
 // units.
 //
-// With more than two coordinates, each pair has a panel: column i, row j - 1 shows x_i to the right
-// and x_j > x_i upward, with the ranges below the panel. All panels have the same scale if the
+// With more than two coordinates, each pair i < j has a panel: column i, row j - 1 shows x_i to the
+// right and x_j upward, with the ranges below the panel. All panels have the same scale if the
 // points have a single domain other than the unit cube. Otherwise each coordinate is scaled to the
 // panel: coordinates such as pixel, time and lens have different units.
 //

@@ -57,7 +57,7 @@ RawShape shape_of(std::string_view bytes, const std::string& source) {
                                                {RawType::floating, 8}}};
     const auto type = static_cast<unsigned char>(bytes[4]);
     if (type >= types.size()) refuse(4, fmt::format("numbers of type {}; expected 0 to 5", type));
-    std::array<double, 3> words{};  // sets, points, coordinates
+    std::array<double, 3> words{};  // numbers of sets, points and coordinates
     take_raw(bytes.substr(8), {RawType::natural, 4}, words);
     if (words[0] * words[1] * words[2] == 0)
         refuse(8, fmt::format("{} sets of {} points with {} coordinates hold no points", words[0],
