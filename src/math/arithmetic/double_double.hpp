@@ -45,7 +45,7 @@ inline DoubleDouble exact_product(double a, double b) {
 /// Product of two doubles with a relative error of at most 2^-104, without fused multiply-adds, for
 /// loops on any processor.
 inline DoubleDouble split_product(double a, double b) {
-    constexpr std::uint64_t upper = ~0x7ffffffULL;  // keeps 26 bits; a_low b_low may be rounded
+    constexpr std::uint64_t upper = ~0x7ffffffULL;  // keeps 26 bits; a_low * b_low may round
     const auto a_high = std::bit_cast<double>(std::bit_cast<std::uint64_t>(a) & upper);
     const auto b_high = std::bit_cast<double>(std::bit_cast<std::uint64_t>(b) & upper);
     const double a_low = a - a_high;

@@ -13,7 +13,7 @@ std::uint64_t binomial(std::uint64_t n, std::uint64_t k) {
     k = std::min(k, n - k);
     Uint128 value = 1;
     for (std::uint64_t i = 1; i <= k; ++i) {
-        value = value * (n - k + i) / i;  // the integer C(n - k + i, i), which increases with i
+        value = value * (n - k + i) / i;  // C(n - k + i, i), an integer that grows with i
         if (value > std::numeric_limits<std::uint64_t>::max())
             return std::numeric_limits<std::uint64_t>::max();
     }

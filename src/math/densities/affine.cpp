@@ -12,7 +12,7 @@ namespace {
 /// A part of a formula: a constant, an affine function coefficients . x + number, or inequalities.
 struct Part {
     std::size_t begin;  ///< index of its first step
-    bool constant;      ///< without variables; its number is computed when needed
+    bool constant;      ///< no variables; compute() sets `number` when it is needed
     std::vector<double> coefficients = {};  ///< empty if constant or not affine
     double number = 0;
     std::vector<HalfSpace> inequalities = {};
@@ -87,7 +87,7 @@ class Affine {
             return true;
         }
         const bool compares = sign == '<' || sign == '>';
-        // Two constants that are not compared remain a constant.
+        // An operation on two constants, except a comparison, gives a constant, computed later.
         if (left.constant && right.constant && !compares) return false;
         compute(left, right.begin);
         compute(right, at_);

@@ -82,7 +82,7 @@ double tanh_of(double x) {
 double whole(double x, double y) {
     int exponent = 0;
     double fraction = std::frexp(x, &exponent);
-    if (std::abs(fraction) < std::numbers::sqrt2 / 2) {  // its powers stay within 2^900 and 2^-900
+    if (std::abs(fraction) < std::numbers::sqrt2 / 2) {  // so fraction^|y| is in [2^-900, 2^900]
         fraction *= 2;
         --exponent;
     }
@@ -114,7 +114,7 @@ double power(double x, double y) {
         return size == 1 ? 1 : (grows ? infinity : 0);
     }
     double size = real_power(std::abs(x), y);
-    if (x != 0 && (size == 0 || size == infinity)) {  // may be just inside the range of doubles
+    if (x != 0 && (size == 0 || size == infinity)) {  // the true power may be a finite double > 0
         const double root = real_power(std::abs(x), y / 2);
         size = root * root;
     }
@@ -210,7 +210,7 @@ constexpr FormulaOperation operations[] = {
 constexpr std::size_t block = 256;
 using Places = std::span<const std::uint32_t>;  ///< indices of points
 
-/// Computes blocks of points, one step of the formula after another.
+/// Evaluates a formula at blocks of points, each step for a whole block.
 struct Evaluation {
     std::span<const FormulaStep> steps;
     const double* points;
@@ -247,8 +247,8 @@ struct Evaluation {
         return stack.data() + base;
     }
 
-    /// Returns the step after which c ? a : b continues. If the points' conditions differ, computes
-    /// each branch at its points, and replaces the conditions by the results.
+    /// Returns the step of c ? a : b after which the evaluation continues. If conditions differ
+    /// between points, computes each branch at its points; the results replace the conditions.
     std::size_t choose(std::size_t at, Places places, std::size_t conditions) {
         const std::size_t n = places.size(), otherwise = steps[at].index;
         const double* const c = stack.data() + conditions;

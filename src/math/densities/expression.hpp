@@ -54,15 +54,15 @@ struct FormulaStep {
         number,
         coordinate,
         operation,
-        plus,  ///< this and the next two: operations computed without a call at single points
+        plus,  ///< plus, minus, times: operations that single points compute without a call
         minus,
         times,
-        when,       ///< takes a condition; if it is 0, continues after step `index`, an `otherwise`
+        when,       ///< pops a condition; if it is 0, continues after step `index`, an `otherwise`
         otherwise,  ///< continues after step `index`, a `chosen`
         chosen      ///< end of c ? a : b
     } kind;
     double value = 0;
-    std::size_t index = 0;  ///< of a coordinate or a step
+    std::size_t index = 0;  ///< of the coordinate or, for `when` and `otherwise`, of a step
     const FormulaOperation* applied = nullptr;
 };
 
@@ -90,7 +90,7 @@ class Expression {
     /// Sets values[i] to the value at point i; points are stored one after another.
     void evaluate(std::span<const double> points, std::span<double> values) const;
 
-    /// Value of steps without coordinates, from `first` to before `last`.
+    /// Value of the steps [first, last), which must not contain coordinates.
     [[nodiscard]] double constant(std::size_t first, std::size_t last) const;
 
   private:

@@ -245,7 +245,7 @@ class Reader {
         value_ = {FormulaStep::coordinate, 0, *named_};
     }
 
-    /// Coordinate with levels with which the current token is compared; nullopt if none.
+    /// Coordinate with levels that == or != compares with the current token; nullopt if none.
     [[nodiscard]] std::optional<std::size_t> compared() const {
         if (left_ && !names_->words(*left_).empty()) return left_;
         std::string_view rest = after_blanks(end_);
@@ -319,7 +319,7 @@ class Reader {
                        token(), expected);
     }
 
-    /// Names the variables, at most twelve.
+    /// Text on what may follow, with the names of at most twelve variables, for errors.
     [[nodiscard]] std::string expectation() const {
         constexpr std::size_t most = 12;
         std::string all;
@@ -347,7 +347,7 @@ class Reader {
     std::size_t begin_ = 0;
     std::size_t end_ = 0;
     FormulaStep value_{FormulaStep::number};
-    const FormulaOperation* operation_ = nullptr;  ///< of a function or an operator
+    const FormulaOperation* operation_ = nullptr;  ///< if the token is a function or an operator
     std::optional<std::size_t> named_;             ///< coordinate that the token names
     std::optional<std::size_t> before_;            ///< coordinate that the previous token names
     std::optional<std::size_t> left_;              ///< coordinate left of a preceding == or !=

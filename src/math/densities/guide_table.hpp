@@ -35,7 +35,7 @@ class Buckets {
     Buckets() = default;
     Buckets(double total, std::size_t count)
         : scale_(static_cast<double>(count) / total), last_(count - 1) {
-        if (!std::isfinite(scale_)) scale_ = 0;  // all in the first bucket: slower, but correct
+        if (!std::isfinite(scale_)) scale_ = 0;  // all sums in the first bucket: slower
     }
 
     [[nodiscard]] std::size_t of(double w) const {
@@ -111,7 +111,7 @@ class GuideTable {
     double most_ = 0;  ///< the largest number below the total
     Buckets buckets_;
     std::vector<std::uint32_t> starts_;
-    std::size_t few_ = few_sums;  ///< result of fill_guide(): limit for the search of fixed length
+    std::size_t few_ = few_sums;  ///< result of fill_guide(), for first_above()
 };
 
 }  // namespace stipple

@@ -22,7 +22,7 @@ struct Sampled {
     double low;
     double high;
     std::array<double, 5> f;
-    bool gap = false;  ///< result of has_gap(): the table gives the piece no mass
+    bool gap = false;  ///< result of has_gap(); if true, the table gives the piece no mass
 
     [[nodiscard]] double width() const { return high - low; }
     [[nodiscard]] double at(double part) const { return low + part * width(); }
@@ -220,7 +220,7 @@ class LineTabulator {
 
 void require_density(const std::string& what, std::span<const double> place, double value) {
     if (value >= 0 && std::isfinite(value)) return;
-    // The sign of a NaN has no meaning.
+    // Drops the sign of a NaN, which has no meaning.
     const double shown = std::isnan(value) ? std::numeric_limits<double>::quiet_NaN() : value;
     fail(ErrorKind::usage, "{} is {} at {}; a density must be finite and not below 0", what, shown,
          place_text(place));
@@ -248,8 +248,8 @@ double mass_share(double a, double b, double t) {
 LineTable::LineTable(std::vector<LinePiece> pieces) : pieces_(std::move(pieces)) {
     double top = 0;
     for (const LinePiece& piece : pieces_) top = std::max({top, piece.f_low, piece.f_high});
-    // Densities may have any scale. Scaling the largest to 2^500, less for large ranges, keeps
-    // masses from overflowing and preserves the digits of small densities.
+    // Densities may have any scale. The largest is scaled to 2^500, or less if the range is long,
+    // so that masses do not overflow and small densities keep their digits.
     const double range = pieces_.back().x_high - pieces_.front().x_low;
     const int down = std::ilogb(top);
     const int lift = 500 - std::max(0, std::ilogb(range)) - down;

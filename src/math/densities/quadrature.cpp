@@ -132,7 +132,7 @@ Estimate integrate_box(const std::function<double(std::span<const double>)>& f, 
                        const Effort& effort) {
     const std::size_t d = box.dimension();
     std::vector<double> point(d);
-    double inner_error = 0;  // largest error of an inner integral, times the extents outside it
+    double inner_error = 0;  // largest inner error times the volume of the outer coordinates
     const std::function<double(std::size_t, double)> inside = [&](std::size_t k, double x) {
         point[k] = x;
         if (k + 1 == d) return f(point);

@@ -4,8 +4,8 @@
 // ends; and of any function, over intervals and boxes. The interval with the largest error is
 // halved first. Integrals over boxes are nested, one coordinate at a time.
 //
-//     error of an interval = |Kronrod - Gauss| + 1/200 of its width times the difference of f
-//                            at its ends, beyond the nodes, from a parabola through nodes
+//     error of an interval = |Kronrod - Gauss| + 1/200 of its width times the differences of f at
+//                            its ends from parabolas through the three nearest nodes
 //
 // Shape   any finite f; jumps and corners are found by halving.
 // Cost    17 values per interval; at most `most` intervals per coordinate.

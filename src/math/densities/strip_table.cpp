@@ -27,7 +27,7 @@ struct SampledPatch {
     std::array<std::array<double, 5>, 3> f;
     /// Largest known error of the table between the samples; 0 unless it exceeds expected().
     double hidden = 0;
-    bool gap = false;  ///< result of has_gap(): the table gives the patch no mass
+    bool gap = false;  ///< result of has_gap(); if true, the table gives the patch no mass
 
     [[nodiscard]] double at(double part) const { return low + part * (high - low); }
 
@@ -259,8 +259,8 @@ class StripTabulator {
                                        (place.at[1] - patch.low) / (patch.high - patch.low)));
     }
 
-    /// Stores surprises for strips made later, and updates `hidden` of the patches that contain
-    /// them.
+    /// Updates `hidden` of the patches that contain the points `met`, and keeps these points for
+    /// strips made later.
     void note(const std::vector<Surprise>& met) {
         for (const Surprise& one : met) {
             SampledPatch* const patch = patch_of(one.at).second;
@@ -281,7 +281,7 @@ class StripTabulator {
         if (worst > patch.expected()) patch.hidden = worst;
     }
 
-    /// Largest error of the patch at the points of met_ in it.
+    /// Largest error of the patch at those points of met_ that it contains.
     [[nodiscard]] double met_error(const SampledStrip& strip, const SampledPatch& patch) const {
         double worst = 0;
         const std::array<double, 2> low{strip.low, -std::numeric_limits<double>::infinity()};
@@ -384,9 +384,9 @@ class StripTabulator {
         std::ranges::sort(strip.patches, {}, &SampledPatch::low);
     }
 
-    /// Error that halving along y may reduce. Hidden errors, and gaps that do not show along x,
-    /// count only if the patch is tall for its width: in flatter halves, no known point might show
-    /// the feature any more.
+    /// Error that halving along y may reduce. In a patch that is tall for its width, this includes
+    /// hidden errors, and gaps that do not show along x. In a flat one it does not: in the even
+    /// flatter halves, no known point might show the feature any more.
     [[nodiscard]] double bend_of(const SampledStrip& strip, const SampledPatch& patch) const {
         const bool tall =
             (patch.high - patch.low) * box_.extent(0) > strip.width() * box_.extent(1);
@@ -492,7 +492,7 @@ class StripTabulator {
     std::vector<double> points_;
     std::vector<double> values_;
     std::vector<double> seen_;              ///< values at the probes
-    std::vector<Surprise> met_;             ///< surprises, sorted by x
+    std::vector<Surprise> met_;             ///< results of surprises(), sorted by x
     const SampledStrip* parent_ = nullptr;  ///< the strip being halved
     std::size_t count_ = 0;
     std::size_t planned_ = 0;  ///< number of patches for which memory was checked

@@ -67,7 +67,7 @@ class StripTable {
     [[nodiscard]] std::array<double, 2> quantile(double u, double v) const;
     [[nodiscard]] std::array<double, 2> fraction(double x, double y) const;
 
-    /// Density at (x, y) of the points from quantile().
+    /// Density of the points that quantile() returns, at (x, y).
     [[nodiscard]] double density(double x, double y) const;
 
   private:
@@ -87,8 +87,8 @@ class StripTable {
         double left;        ///< integral of the density over y on the left side
         double right;
 
-        /// Position from which the conditional density of y at position t is taken (0: left side,
-        /// 1: right side): t itself, or the other side if the column has no mass at t.
+        /// Position (0: left side, 1: right side) at which the density of y given x is taken: t
+        /// itself or, if the column has no mass there, the other side.
         [[nodiscard]] double side(double t) const {
             if ((1 - t) * left + t * right > 0) return t;
             return left > 0 ? 0 : 1;
@@ -105,7 +105,7 @@ class StripTable {
                                            columns_[column + 1].first - columns_[column].first);
     }
 
-    /// Followed by a sentinel, whose `first` is the number of patches.
+    /// The columns, followed by a sentinel with the number of patches as `first`.
     std::vector<Column> columns_;
     std::vector<Patch> patches_;
     GuideTable masses_;  ///< running sums of the strips' masses

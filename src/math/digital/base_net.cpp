@@ -107,8 +107,8 @@ BaseNet::BaseNet(std::uint32_t base, std::size_t rows, std::size_t columns)
         for (std::uint64_t i = power; i < block_; i += power) ++ruler_[i - 1];
 }
 
-/// Packs every `stride`-th digit into words; those in the last word are aligned to its highest
-/// field.
+/// Packs every `stride`-th digit into words. If the last word is not full, its lowest fields are
+/// unused.
 BaseNet::Words BaseNet::pack(std::span<const std::uint32_t> digits, std::size_t stride) const {
     const std::size_t fields = 64 / width_;
     const std::size_t unused = words_ * fields - rows_;
@@ -143,7 +143,7 @@ void BaseNet::append(const DigitMatrix& matrix, std::span<const std::uint32_t> s
             for (std::size_t word = 0; word < words_; ++word)
                 if (packed[word] != 0) coordinate.active = std::max(coordinate.active, word + 1);
     }
-    // The step after the last point of a short net is read but not used.
+    // walk() also reads the step after the last point, without using it.
     coordinate.steps.resize(std::max(columns_ + 1, low_digits_));
 }
 

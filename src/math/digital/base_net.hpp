@@ -84,7 +84,7 @@ class BaseNet {
     std::size_t columns_;
     unsigned width_ = 4;               ///< bits per digit
     std::size_t words_ = 1;            ///< number of words per coordinate
-    Words scales_{};                   ///< weight of each word's number, in units of b^-rows
+    Words scales_{};                   ///< factor of each word's number in units of b^-rows
     double whole_ = 1;                 ///< b^rows
     std::uint64_t block_ = 1;          ///< number of consecutive indices with the same high digits
     std::size_t low_digits_ = 0;       ///< b^low_digits = block

@@ -191,7 +191,7 @@ BaseOwen::BaseOwen(std::uint64_t seed, std::size_t coordinate, std::uint32_t bas
     images_ = first_images();
     for (std::size_t depth = 1; depth < low_digits_; ++depth) append_digits(depth);
     for (std::uint64_t q = 0; q < block_; ++q) {
-        // A q with L < t digits has an interval of length b^-L, in which its image is random.
+        // If q has L digits, its image is random within an interval of length b^-L.
         const std::uint64_t image = images_[q] / powers_[low_digits_ - lengths_[q]];
         short_.push_back(inside(image, mixed(q, keys_), power(base_, lengths_[q])));
     }
@@ -232,9 +232,9 @@ void BaseOwen::fill_binary(std::uint64_t first, std::size_t count, double* out,
     }
 }
 
-/// Consecutive integers that differ only in the t low digits.
+/// Consecutive integers that differ only in their low_digits_ lowest digits.
 struct BaseOwen::Stretch {
-    std::uint64_t low;  ///< t low digits of the first integer
+    std::uint64_t low;  ///< low digits of the first integer
     std::uint64_t high;
     std::size_t count;  ///< number of integers, at most `lanes`
 };

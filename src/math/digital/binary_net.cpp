@@ -70,8 +70,8 @@ void BinaryNet::fill_rows(std::uint64_t first, std::span<Number> rows) const {
     std::vector<std::uint64_t> high(period_ * d);
     std::ranges::copy(shift_, high.begin());
 
-    // The step from high digits h to h + 1 adds row j of carries_ for j trailing ones of h. So the
-    // sum for h consists of the rows j at which the Gray code of h has a 1.
+    // If h ends in j ones, the step from high digits h to h + 1 adds row j of carries_. So the sum
+    // for h consists of the rows j at which the Gray code of h has a 1.
     std::uint64_t h = first >> low_digits_;
     for (std::uint64_t gray = h ^ (h >> 1); gray != 0; gray &= gray - 1) {
         const std::uint64_t* step = carry(std::countr_zero(gray));

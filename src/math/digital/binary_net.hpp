@@ -64,7 +64,7 @@ class BinaryNet {
 
     std::size_t dimension_;
     int low_digits_ = 0;
-    std::size_t period_ = 1;              ///< copies of the high digits' sum, to fill whole vectors
+    std::size_t period_ = 1;              ///< number of copies of the high digits' sum, for vectors
     std::vector<std::uint64_t> low_;      ///< sums for all values of the low digits, row by row
     std::vector<std::uint64_t> carries_;  ///< row j: sum of columns 0, ..., j of the high digits
     std::vector<std::uint64_t> shift_;

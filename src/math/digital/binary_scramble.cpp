@@ -13,7 +13,7 @@ constexpr std::size_t block_points = 256;
 constexpr int group_digits = 5;  // digits per group; a group needs 31 random bits
 constexpr int upper_groups = 6;  // groups in the upper part; its 30 digits fit 32 bits
 constexpr int lower_groups = 5;  // groups in the lower part; 55 digits in all
-constexpr std::size_t all_groups = upper_groups + lower_groups;  // also the upper part's key index
+constexpr std::size_t all_groups = upper_groups + lower_groups;  // also index of upper part's keys
 constexpr int upper_bits = upper_groups * group_digits;
 constexpr int lower_bits = lower_groups * group_digits;
 constexpr std::uint32_t group_mask = (1U << group_digits) - 1;
@@ -46,8 +46,8 @@ constexpr std::uint32_t shift_of(std::size_t g) {
 }
 
 /// Flips for the digits of group g, shifted to the group's bits in `part`; `above` is the hash of
-/// the upper part. Prefixes of up to 25 digits have distinct hashes. Longer prefixes whose hashes
-/// coincide for one group differ in the next, because its factor does.
+/// the upper part. Prefixes of up to 25 digits have distinct hashes. Longer prefixes with equal
+/// hashes in one group differ in the next, because keys.factor[g] is another number.
 inline std::uint32_t group_flips(const BinaryOwen::Keys& keys, std::size_t g, std::uint32_t shift,
                                  std::uint32_t part, std::uint32_t above) {
     const std::uint32_t prefix = part >> shift >> group_digits;

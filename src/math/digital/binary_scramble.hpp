@@ -50,7 +50,7 @@ class BinaryOwen {
     struct Keys {
         std::array<std::uint32_t, 12> before;
         std::array<std::uint32_t, 12> between;
-        std::array<std::uint32_t, 12> factor;  ///< of the upper part's hash; 0 for upper groups
+        std::array<std::uint32_t, 12> factor;  ///< factor of the upper part's hash; upper groups: 0
     };
 
   private:

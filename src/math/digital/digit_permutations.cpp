@@ -62,8 +62,8 @@ PermutedInverse::PermutedInverse(std::uint32_t base, const Rng& numbers)
     std::ranges::reverse(zeros_);
 }
 
-/// Fraction formed by the images of `high`, the digits above the t low ones, in units of b^-t; at
-/// least margin_ from 0 and 1.
+/// Images of the digits `high`, which follow the t low ones, as a fraction of b^-t in
+/// [margin_, 1 - margin_].
 double PermutedInverse::behind(std::uint64_t high) const {
     Wide digits = 0;
     Wide power = 1;
@@ -72,7 +72,7 @@ double PermutedInverse::behind(std::uint64_t high) const {
         digits = digits * base_ + permuted_[position * base_ + high % base_];
         power *= base_;
     }
-    // `digits` and `power` are below 2^53: power <= b * high <= the index, because block_ >= b.
+    // `digits` and `power` are below 2^53: power <= base_ * high <= block_ * high <= the index.
     const auto whole = static_cast<double>(static_cast<std::uint64_t>(digits));
     const double fraction =
         (whole + zeros_[position]) / static_cast<double>(static_cast<std::uint64_t>(power));

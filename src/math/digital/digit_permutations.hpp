@@ -49,7 +49,7 @@ class PermutedInverse {
     double margin_;                        ///< behind() is clamped to [margin_, 1 - margin_]
     std::vector<double> low_;              ///< images of the t low digits, as integers
     std::vector<std::uint16_t> permuted_;  ///< permutations of the higher positions, in order
-    std::vector<double> zeros_;  ///< by position: fraction if all digits from there on are 0
+    std::vector<double> zeros_;            ///< by position: image of all-zero digits from there on
 };
 
 }  // namespace stipple

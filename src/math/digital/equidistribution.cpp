@@ -109,7 +109,7 @@ class CountingProbe final : public Probe {
   private:
     static constexpr std::size_t block = 4096;
 
-    /// Computes the boxes of a block of points after dividing by digits of a coordinate.
+    /// Computes the boxes of a block of points after one more cut, by `digits` of a coordinate.
     void append(std::size_t depth, std::size_t coordinate, std::size_t digits, std::size_t first,
                 std::int32_t* to) const {
         run_.check_stop();

@@ -64,8 +64,8 @@ class Probe {
     Probe& operator=(const Probe&) = delete;
     virtual ~Probe() = default;
 
-    /// Divides by `digits` digits of a coordinate, as cut number `depth`, from 0. After the
-    /// previous cuts, all boxes must hold the same number of points.
+    /// Makes cut number `depth`, from 0: divides by `digits` digits of a coordinate. All boxes of
+    /// the previous cuts must hold the same number of points.
     virtual void cut(std::size_t depth, std::size_t coordinate, std::size_t digits) = 0;
 
     /// True if all boxes hold the same number of points after the previous cuts and this one.

@@ -29,7 +29,7 @@ void Drand48::discard(std::uint64_t count) {
 
 AdditiveFeedback::AdditiveFeedback(std::uint64_t seed) {
     state_[0] = seed == 0 ? 1 : static_cast<std::uint32_t>(seed);
-    // The minimal standard generator in the C library's signed arithmetic: a seed above 2^31
+    // The minimal standard generator in the C library's signed arithmetic: a seed of 2^31 or more
     // becomes negative, and so does the remainder.
     auto word = static_cast<std::int32_t>(state_[0]);
     for (std::size_t i = 1; i < state_.size(); ++i) {

@@ -53,8 +53,8 @@ class AdditiveFeedback {
     std::size_t rear_ = 0;
 };
 
-/// RANMAR: a lagged Fibonacci generator (97, 33; minus) combined with an arithmetic sequence, of
-/// 24-bit numbers.
+/// RANMAR, with 24-bit numbers: a lagged Fibonacci generator (differences, lags 97 and 33) combined
+/// with an arithmetic sequence.
 ///
 /// Source  G. Marsaglia, A. Zaman, W. W. Tsang, Stat. Probab. Lett. 9 (1990) 35-39; as printed by
 ///         F. James, Comput. Phys. Commun. 60 (1990) 329-344, doi:10.1016/0010-4655(90)90032-V.

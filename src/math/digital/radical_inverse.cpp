@@ -54,15 +54,15 @@ RadicalInverse::RadicalInverse(std::uint32_t base, std::vector<std::uint32_t> pe
     last_power_ = exact_limit / block_;
     if (block_ == base && permutation_.empty()) return;
     for (std::uint64_t i = 0; i < block_; ++i) {
-        // Adding b^t puts a digit before the leading zeros of i, so that these are reversed, too;
-        // the division removes this digit.
+        // Adding block_ puts a digit before the leading zeros of i, so that these are reversed,
+        // too; the division removes this digit.
         const Reversed low = reversed(i + block_, base, permutation_);
         reversed_.push_back(static_cast<double>(static_cast<std::uint64_t>(low.digits / base)));
     }
 }
 
 double RadicalInverse::of(std::uint64_t index) const {
-    std::uint64_t digits = 0;  // computed as in reversed(), but t digits at a time
+    std::uint64_t digits = 0;  // as in reversed(), but several digits at a time
     std::uint64_t power = 1;
     std::uint64_t rest = index;
     for (; rest > 0 && power <= last_power_; rest /= block_, power *= block_) {

@@ -13,8 +13,8 @@ namespace {
 
 /// The double nearest to the middle of [low / parts, high / parts). Strata are at least 2^-53 wide,
 /// the maximum distance between neighbouring doubles below 1, so that this double is inside. The
-/// exception is 2^53 parts: there the middle is a tie, which may round to the upper edge, but the
-/// lower edge is a double.
+/// exception is 2^53 parts: there the middle is a tie, which may round to the upper edge. Then the
+/// lower edge is returned, which is a double.
 double safe_point(std::uint64_t low, std::uint64_t high, std::uint64_t parts) {
     const auto n = static_cast<double>(parts);
     const double middle = ratio(Wide{low} + high, Wide{parts} * 2);

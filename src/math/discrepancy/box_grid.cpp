@@ -51,7 +51,7 @@ std::vector<std::uint32_t> in_no_box(const PointSet& points, Family family) {
     return found;
 }
 
-/// Appends the distinct values of sorted items to `values`; returns their indices by item.
+/// Appends the distinct values of sorted items to `values`; returns each item's index in it.
 std::vector<std::uint32_t> ranks_among(const std::vector<Placed>& items,
                                        std::vector<double>& values, const RunContext& run) {
     std::vector<std::uint32_t> ranks;

@@ -52,7 +52,7 @@ class Search {
         while (!stopped_ && !ending()) {
             std::vector<Task> tasks;
             unless_interrupted([&] { problem_.look_around(known_, limits_.work); });
-            if (limits_.timed()) agree();  // progress depends on each peer's clock
+            if (limits_.timed()) agree();  // bounds may depend on each peer's clock
             if (!stopped_) tasks = next_tasks();
             unless_interrupted([&] { explore_some(tasks); });
             exchange(tasks);
@@ -71,7 +71,7 @@ class Search {
         return {};
     }
 
-    /// Calls work() unless a peer was stopped; records if this peer is stopped meanwhile.
+    /// Calls work() unless a peer was stopped; a stop request meanwhile only sets interrupted_.
     template <class Work>
     void unless_interrupted(const Work& work) {
         if (interrupted_ || stopped_) return;
@@ -126,7 +126,7 @@ class Search {
             pack_task(tasks[i], packer);
         const auto all = speak(packer);
         std::vector<Unpacker> found(all.begin(), all.end());
-        if (stopped_) return;  // tasks may be unexplored; earlier bounds remain valid
+        if (stopped_) return;  // keeps the bounds: tasks may be unexplored
         for (std::size_t i = 0; i < tasks.size(); ++i) take_task(found[i % size]);
     }
 
@@ -152,7 +152,7 @@ class Search {
 
     [[nodiscard]] bool full() const { return cells_.size() >= most_cells_; }
 
-    /// Pops the cells with the highest bounds. A budget is at most an equal part of the work left.
+    /// Pops the cells with the highest bounds. Budgets are at most equal parts of the work left.
     std::vector<Task> next_tasks() {
         constexpr std::size_t together = 64;
         const std::uint64_t size = grid_.count * grid_.dimension();
