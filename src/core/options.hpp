@@ -33,7 +33,7 @@ struct Points {};
 struct Extents {};
 
 /// Rows of numbers. Not a plain vector, since libstdc++ 12 assumes that a variant of only vectors
-/// and strings is never valueless: if copying runs out of memory, it destroys an absent value.
+/// and strings always holds a value: if a copy runs out of memory, it destroys a missing value.
 struct Table : std::vector<std::vector<double>> {
     using vector::vector;
 };
@@ -56,7 +56,7 @@ std::vector<double> parse_numbers(std::string_view option, std::string_view text
 /// Formats a value as users type it: true, 12, 0.5, polar, "0,0", "0,0 1,0", 40x25.
 std::string format_value(const Value& value);
 
-/// A number option: std::int64_t or double.
+/// An option with a value of type std::int64_t or double.
 template <class T>
 struct Param {
     static_assert(std::is_same_v<T, std::int64_t> || std::is_same_v<T, double>);

@@ -10,7 +10,7 @@
 namespace stipple {
 
 struct OutcomeAxis {
-    /// Outcome for u, which never decreases with u; empty if the axis is continuous.
+    /// Outcome for the coordinate u, nondecreasing in u; empty if the axis is continuous.
     std::function<double(double u)> outcome = {};
     bool categories = false;  ///< outcomes are categories without an order
 
@@ -21,8 +21,8 @@ struct OutcomeAxis {
 /// than `most` intervals or the axis is continuous.
 std::vector<double> outcome_ends(const OutcomeAxis& axis, std::size_t most);
 
-/// As outcome_ends(), for outcomes used as levels of a factor: at most ten numbers or 10 000
-/// categories.
+/// outcome_ends() for outcomes that serve as levels of a factor; empty if there are more than 10
+/// numbers or 10 000 categories.
 std::vector<double> level_ends(const OutcomeAxis& axis);
 
 }  // namespace stipple

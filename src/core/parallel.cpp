@@ -12,7 +12,7 @@
 namespace stipple {
 
 RunContext worth_threads(const RunContext& run, double seconds) {
-    // Seconds that waking threads takes on a busy machine; an idle one takes a quarter of it.
+    // Seconds to wake the threads on a busy machine; on an idle one, it takes a quarter of that.
     constexpr double waking = 1e-3;
     RunContext fit = run;
     if (seconds < 2 * waking) fit.threads = 1;
@@ -36,8 +36,8 @@ RunContext unstopped(RunContext run) {
 
 namespace {
 
-/// Raises oneTBB's limit on threads, which is the number of cores by default, to `threads`. As
-/// oneTBB applies the smallest limit of all global_control objects, the program has only one.
+/// Raises oneTBB's limit on threads, by default the number of cores, to `threads`. The program has
+/// a single global_control object, because oneTBB applies the smallest limit of all of them.
 void allow(unsigned threads) {
     static std::mutex mutex;
     static std::optional<tbb::global_control> bound;

@@ -146,8 +146,8 @@ class ProductDomain final : public Domain {
     }
 
     std::vector<Factor> factors_;
-    /// Position in the cube of each axis of the factors' cubes, listed factor by factor. The cube's
-    /// axes are ordered by the coordinates that they depend on.
+    /// For the axes of the factors' cubes, factor by factor: index of the axis in the product's
+    /// cube. There, axes are ordered by the coordinates that use them.
     std::vector<std::size_t> places_;
 };
 

@@ -25,7 +25,7 @@ const T& held(const Report& report, std::string_view key, std::string_view kind)
 
 }  // namespace
 
-// Not defaulted: clang does not terminate on the recursion through Item.
+// Not defaulted: clang would never finish compiling the comparison, which recurs through Item.
 bool Report::operator==(const Report& other) const {
     return entries_ == other.entries_ && unmet_ == other.unmet_;
 }
@@ -41,7 +41,7 @@ Report& Report::put(std::string_view name, Item value, std::string_view unit) {
 
 const Report::Item* Report::find(std::string_view key) const {
     for (const auto& [name, value, unit] : entries_) {
-        if (name == key) return &value;  // a name may itself contain dots
+        if (name == key) return &value;  // tested first, as a name may contain dots
         const auto* group = std::get_if<Report>(&value);
         if (group == nullptr || !key.starts_with(name) || key.substr(name.size(), 1) != ".")
             continue;

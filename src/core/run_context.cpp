@@ -60,7 +60,7 @@ unsigned limited_by_system(unsigned wanted) {
 
 unsigned RunContext::thread_count() const {
     static const unsigned cores =
-        std::max(1U, std::thread::hardware_concurrency());   // cached, since it reads a file
+        std::max(1U, std::thread::hardware_concurrency());   // cached, since the call reads a file
     constexpr std::uint64_t bytes = std::uint64_t{1} << 20;  // stack and heap of one thread
     const auto fit = std::clamp<std::uint64_t>(max_memory / bytes, 1, ~0U);
     return limited_by_system(

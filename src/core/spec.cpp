@@ -90,7 +90,7 @@ class SpecParser {
     std::size_t at_ = 0;
 };
 
-/// Whether the text after a comma is a number and so cannot begin a spec, as in disk@1,2.
+/// Whether the text after a comma is a number, which cannot begin a spec, as in disk@1,2.
 bool is_numeric(std::string_view rest) {
     return !rest.empty() && std::string_view("0123456789.+-").find(rest[0]) != rest.npos;
 }

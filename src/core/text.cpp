@@ -37,7 +37,7 @@ std::optional<std::int64_t> power(std::string_view base_text, std::string_view e
     const auto base = parse_whole<std::int64_t>(base_text);
     const auto exponent = parse_whole<int>(exponent_text);
     if (!base || !exponent || *exponent < 0) return std::nullopt;
-    const bool grows = *base > 1 || *base < -1;  // otherwise only the exponent's parity matters
+    const bool grows = *base > 1 || *base < -1;  // else the exponent's parity decides
     const int factors = grows ? *exponent : std::min(*exponent, 2 - *exponent % 2);
     std::int64_t value = 1;
     for (int i = 0; i < factors; ++i)
@@ -55,7 +55,7 @@ double suffix_factor(char suffix) {
 /// Smallest number of edits that turn a into b; an edit inserts, deletes or replaces a letter, or
 /// swaps two neighbours.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> before;  // distances from a prefix of a that is two letters shorter
+    std::vector<std::size_t> before;  // row of the prefix of `a` two letters shorter
     std::vector<std::size_t> last;
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});

@@ -38,7 +38,7 @@ void replace_all(std::string& text, std::string_view from, std::string_view to);
 /// Parts between separators; "a,b" -> {"a", "b"}, "" -> {}.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
-/// As split(), but ignores separators in brackets: "1,min(2,3)" -> {"1", "min(2,3)"} for "()".
+/// As split(), but ignores separators in brackets; with "()", "1,min(2,3)" -> {"1", "min(2,3)"}.
 std::vector<std::string_view> split_outside(std::string_view brackets, std::string_view text,
                                             std::string_view separator);
 
@@ -46,7 +46,7 @@ std::string join(std::span<const std::string> words, std::string_view between);
 /// Joins numbers, written as by format_number().
 std::string join(std::span<const double> numbers, std::string_view between);
 
-/// Whole numbers in a list of type List.
+/// Joins whole numbers in a list of type List.
 template <class List>
 requires std::integral<typename List::value_type> std::string join(const List& numbers,
                                                                    std::string_view between) {
@@ -98,14 +98,14 @@ std::string utf8_of(std::u32string_view letters);
 /// direction of writing, and invalid UTF-8 as \n, \x1b, \u202e, \xff.
 std::string printable(std::string_view text);
 
-/// Truncates words beyond 1000 bytes and text beyond 8000, since messages repeat user input.
+/// Shortens words of more than 1000 bytes, and texts of more than 8000, for messages.
 std::string cut_short(std::string_view text);
 
 /// A word quoted for a shell if necessary.
 std::string shell_word(const std::string& word);
 
-/// Quotes and escapes untrusted text for a message; cuts off all after 80 letters and adds its
-/// size.
+/// Quotes and escapes untrusted text for a message. A text of more than 80 letters is cut off, and
+/// its size in bytes is added.
 std::string shown(std::string_view text);
 
 }  // namespace stipple

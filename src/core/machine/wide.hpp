@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// STIPPLE_WIDE before a function compiles it once per vector width, including what it inlines; an
-// ELF indirect function selects a version at run time. Results do not change, since operations are
-// neither fused nor reordered. Sanitized programs get the plain function, because sanitizers call
-// it before a version is selected.
+// With GCC on x86-64, STIPPLE_WIDE before a function compiles it once per vector width, including
+// what it inlines; an ELF indirect function selects a version at run time. Results do not change,
+// since operations are neither fused nor reordered. Programs built with a sanitizer get the plain
+// function, because sanitizers call the function before a version is selected.
 //
-// In optimised builds, GCC compiles these functions at -O3, whatever the level of their source.
-// It inlines functions of that source into them only if they are small, or if the marked function
-// also has [[gnu::flatten]].
+// In optimised builds, GCC compiles these functions at -O3, whatever level applies to the rest of
+// their file. It inlines other functions of the file into them only if those are small, or if the
+// marked function also has [[gnu::flatten]].
 #pragma once
 
 #if !defined(__GNUC__) || defined(__clang__) || !defined(__OPTIMIZE__) || \
