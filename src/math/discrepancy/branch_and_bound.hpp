@@ -8,8 +8,8 @@
 // search does not depend on the number of threads.
 //
 // Peer processes divide the cells of a round among themselves and then exchange the results, so
-// that all have the same state before the next round. Every peer does all other work. A single
-// process is its own only peer.
+// that all have the same state before the next round. All other work is done by every peer. Without
+// peers, a process explores all cells itself.
 #pragma once
 
 #include <deque>
@@ -33,9 +33,9 @@ struct Cell {
 struct Task {
     Cell cell;
     WorstBox worst;
-    double target;             ///< parts with bounds up to the target are left for later
+    double target;             ///< parts with bounds <= target are left for later rounds
     std::uint64_t budget;      ///< limit on `work`
-    std::vector<Cell> rest{};  ///< parts that remain open
+    std::vector<Cell> rest{};  ///< parts not yet explored
     std::uint64_t work = 0;
 };
 
@@ -43,7 +43,7 @@ struct Task {
 struct Known {
     WorstBox worst;
     double upper = 1;
-    std::uint64_t work = 0;  ///< comparisons of coordinates
+    std::uint64_t work = 0;  ///< comparisons of coordinates so far
 };
 
 /// Interface to a family of boxes to search.
@@ -60,8 +60,8 @@ class Problem {
     /// Explores a task; called concurrently by several threads.
     virtual void explore(Task& task) const = 0;
 
-    /// True if cells are explored only until their bounds reach a target. The bounds then converge
-    /// steadily, but with more work in total, as later rounds select the points of a cell again.
+    /// True if cells are explored only until their bounds reach a target. The upper bound then
+    /// falls steadily, but total work is larger: later rounds select the points of a cell again.
     [[nodiscard]] virtual bool by_stages(const Known& /*known*/) const { return false; }
 
     /// Improves the known bounds by other searches before each round; `work` limits the total work.
@@ -74,11 +74,11 @@ class Problem {
 SearchResult branch_and_bound(Problem& problem, const BoxGrid& grid, Known known,
                               const SearchLimits& limits, const RunContext& run, Peers* peers);
 
-/// Explores the cell of a task depth first. A bounder provides three functions. tighten(cell, from,
-/// mine) selects the relevant points of a cell from those of a larger cell (`mine` may be `from`),
-/// shrinks and bounds the cell, and offers boxes; it returns false if nothing is left to split.
-/// split(cell) removes a part from the cell last tightened and returns it. work() counts
-/// comparisons.
+/// Explores the cell of a task depth first, by three functions of a Bounder. tighten(cell, from,
+/// mine) selects the points that matter in a cell, `mine`, from those of a larger cell, `from`, or
+/// in place. It shrinks and bounds the cell, offers boxes as the worst, and returns false if
+/// nothing is left to split. split(cell) removes a part from the cell last tightened and returns
+/// it. work() returns the number of comparisons so far.
 template <class Bounder>
 class Explorer {
   public:
@@ -108,7 +108,7 @@ class Explorer {
         }
     }
 
-    /// Checks the clock and the stop token at intervals of work.
+    /// True if the deadline has passed. Checks clock and stop token only after enough work.
     bool late() {
         constexpr std::uint64_t looks_apart = 1U << 14;
         if (bounder_.work() < next_look_) return late_;
@@ -122,7 +122,7 @@ class Explorer {
     Task& task_;
     const SearchLimits& limits_;
     const RunContext& run_;
-    std::deque<Points> points_;  ///< points of the current cell and those that contain it, by depth
+    std::deque<Points> points_;  ///< points of the cell at each depth of the descent
     std::uint64_t next_look_ = 0;
     bool late_ = false;
 };

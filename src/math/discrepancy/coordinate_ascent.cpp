@@ -16,7 +16,7 @@ namespace {
 /// Runs ascents from given boxes one at a time; reuses its buffers.
 class BoxAscent {
   public:
-    /// Each ascent ends at the limits or after `most` comparisons.
+    /// An ascent ends early if a limit is reached, or after `most` comparisons.
     BoxAscent(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run,
               std::uint64_t most = std::numeric_limits<std::uint64_t>::max())
         : grid_(grid), limits_(limits), run_(run), most_(most), outside_(grid.count) {}
@@ -60,7 +60,7 @@ class BoxAscent {
         }
     }
 
-    /// Recomputes the volume, to remove the rounding errors of moves.
+    /// Recomputes the volume, in which moves accumulate rounding errors.
     void multiply() {
         volume_ = 1;
         for (std::size_t k = 0; k < grid_.dimension(); ++k)
@@ -113,7 +113,7 @@ class BoxAscent {
         return true;
     }
 
-    /// Worst interval that begins at 0. `all` is the scale times section(axis).
+    /// Worst interval that begins at 0. `all` is grid_.scale * section(axis).
     [[nodiscard]] Found worst_end(std::size_t axis, double all) const {
         const auto& values = grid_.values[axis];
         const auto weight = static_cast<double>(grid_.weight);
@@ -130,7 +130,7 @@ class BoxAscent {
         return worst;
     }
 
-    /// Worst of all intervals on the axis; `all` as in worst_end().
+    /// Worst of all intervals on the axis. `all` is grid_.scale * section(axis).
     [[nodiscard]] Found worst_ends(std::size_t axis, double all) {
         const auto& values = grid_.values[axis];
         line_.clear();
@@ -175,7 +175,7 @@ double largest_of(std::size_t d, const Rng& rng, std::uint64_t first) {
     return most;
 }
 
-/// Draws a random anchored box with upper coordinates u^(1/d), u uniform: its volume is not tiny.
+/// Draws an anchored box with upper coordinates u^(1/d), u uniform, so that its volume is not tiny.
 GridBox random_anchored_box(const BoxGrid& grid, Side side, std::uint64_t stream) {
     const std::size_t d = grid.dimension();
     const Rng rng(0, stream);
@@ -189,8 +189,8 @@ GridBox random_anchored_box(const BoxGrid& grid, Side side, std::uint64_t stream
     return box;
 }
 
-/// Draws a random box. In many dimensions most random boxes have a negligible volume. So the first
-/// open box is the largest possible, and a closed box has two random points as opposite corners.
+/// Draws a random box. In many dimensions, random ends mostly give tiny volumes. So the open box of
+/// stream 0 is the largest possible, and a closed box has two points as opposite corners.
 GridBox random_free_box(const BoxGrid& grid, Side side, std::uint64_t stream) {
     const Rng rng(0, stream);
     const std::uint64_t one = rng.below(0, grid.count);
@@ -226,10 +226,10 @@ struct Plan {
     std::uint64_t most;
 
     Plan(const BoxGrid& grid, const SearchLimits& limits) {
-        constexpr std::uint64_t effort = 1U << 24;  // comparisons: a fraction of a second
+        constexpr std::uint64_t effort = 1U << 24;  // wanted starts * size: under a second of work
         const std::uint64_t size = grid.count * grid.dimension();
-        constexpr std::uint64_t share = 8;    // ascents may use 1 / share of limits.work
-        constexpr std::uint64_t ascent = 16;  // comparisons of two ascents in units of `size`
+        constexpr std::uint64_t share = 8;    // ascents may use limits.work / share
+        constexpr std::uint64_t ascent = 16;  // a start takes about ascent * size comparisons
         const std::uint64_t affordable = limits.work / (share * ascent * size);
         const std::uint64_t wanted = std::clamp<std::uint64_t>(effort / size, 8, 200);
         starts = std::clamp<std::uint64_t>(affordable, 1, wanted);
@@ -259,7 +259,7 @@ void walk(const BoxGrid& grid, BoxAscent& ascent, Side side, std::uint64_t numbe
     constexpr std::uint64_t effort = 1U << 23;
     const std::uint64_t size = grid.count * grid.dimension();
     const std::uint64_t steps = std::clamp<std::uint64_t>(effort / size, 4, 64);
-    constexpr std::uint64_t other_streams = 1U << 20;  // different from those of ascend()
+    constexpr std::uint64_t other_streams = 1U << 20;  // above the streams of ascend()
     double here = ascent.run(random_anchored_box(grid, side, other_streams + number), worst);
     GridBox box = ascent.box();
     const Rng rng(1, number);
@@ -268,7 +268,7 @@ void walk(const BoxGrid& grid, BoxAscent& ascent, Side side, std::uint64_t numbe
         perturb(grid, rng, step * draws_of_a_perturbation, next);
         const double reached = ascent.run(std::move(next), worst);
         const double left = 1 - static_cast<double>(step + 1) / static_cast<double>(steps);
-        if (reached < here - 0.1 * left * here) continue;  // initial threshold found by trial
+        if (reached < here - 0.1 * left * here) continue;  // 0.1 was found by trial
         here = reached;
         box = ascent.box();
     }
@@ -285,7 +285,7 @@ Ascent ascend(const BoxGrid& grid, const SearchLimits& limits, const RunContext&
         BoxAscent ascent(grid, limits, run, plan.most);
         Ascent& mine = found[block.index];
         for (std::uint64_t start = block.first; start < block.last; ++start) {
-            if (start > 0 && limits.over(run)) break;  // at least one box is needed
+            if (start > 0 && limits.over(run)) break;  // start 0 always runs: a box is needed
             ascent.run(random_box(grid, side, start), mine.worst);
         }
         mine.work += ascent.work();

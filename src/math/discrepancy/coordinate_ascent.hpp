@@ -13,7 +13,7 @@ namespace stipple::discrepancy {
 
 struct Ascent {
     WorstBox worst;
-    std::uint64_t work;  ///< comparisons of coordinates
+    std::uint64_t work;  ///< number of comparisons of coordinates
 };
 
 /// Worst box reached by ascents from up to 200 open and 200 closed boxes, fewer for large sets: a
@@ -28,7 +28,7 @@ Ascent ascend(const BoxGrid& grid, const SearchLimits& limits, const RunContext&
 /// excess is smaller by more than a threshold, which decreases. Offers all boxes reached.
 /// Deterministic, unless time ends it.
 /// @param round index of the round, from 0; selects the random numbers
-/// @returns the comparisons of coordinates.
+/// @returns the number of comparisons of coordinates.
 ///
 /// Source  M. Gnewuch, M. Wahlstroem, C. Winzen, SIAM J. Numer. Anal. 50 (2012) 781-807 (threshold
 ///         accepting for star discrepancies, there without ascents).

@@ -39,8 +39,8 @@ struct Width {
 };
 
 /// Sweeps upwards over points. A point's position is its index in grid.order[0]. Points below the
-/// current one have keys that increase with height; on the torus, so do the copies, one turn down,
-/// of the points above it.
+/// current one have keys that increase with height. On the torus, points above it count as their
+/// copies one turn down, with lower keys.
 class Sweep {
   public:
     Sweep(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run)
@@ -170,9 +170,9 @@ class Sweep {
         }
     }
 
-    /// On the torus, offers the rectangle of full width from a point down to the next one, the cut.
-    /// Sets `width` to the circle without the cut's rank; returns false if the cut is straight
-    /// below.
+    /// On the torus, offers the rectangle of full width from this point down to the next lower one,
+    /// the cut. Sets `width` to the circle without the cut's rank. Returns false if the cut is
+    /// straight below the point.
     bool cut_circle(std::uint32_t rank, std::uint32_t top, Width& width) {
         const std::uint32_t lowest = point_of(keys_.among(0, grid_.count));
         const std::uint32_t cut = grid_.ranks[0][lowest];
@@ -184,8 +184,8 @@ class Sweep {
         return cut != rank;
     }
 
-    /// Offers all rectangles that reach the ceiling of the square. Over each range of positions,
-    /// the rectangle ends at the highest point, which then splits the range.
+    /// Offers all rectangles that reach the ceiling of the square. The rectangle over a range of
+    /// positions ends at the highest point in the range, which then splits the range.
     void offer_below_ceiling() {
         const auto top = static_cast<std::uint32_t>(grid_.values[1].size() - 1);
         std::vector<Interval> open{{0, end_}};

@@ -2,9 +2,9 @@
 //
 // The largest empty rectangle in the square or on the torus, from all maximal ones. A maximal
 // rectangle has a point on its upper side or reaches the ceiling of the square. The search below a
-// point starts with the full width and height. The highest point inside bounds one rectangle from
-// below, and all deeper ones from the left or the right. This repeats until the highest point
-// inside is straight below the first point.
+// point starts with the full width and height. One rectangle ends at the highest point inside.
+// Deeper rectangles have this point on their left or right side, so it cuts the width. This repeats
+// until the highest point inside is straight below the first point.
 //
 // Cost    O((n + s) log n) with s <= n^2 maximal rectangles (about n log n for random points), in
 //         practice less, since narrow ones are skipped; O(n) memory.

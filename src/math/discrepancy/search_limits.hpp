@@ -99,7 +99,7 @@ struct SearchResult {
 SearchResult result_of_sweep(WorstBox worst, bool complete, const SearchLimits& limits,
                              const RunContext& run);
 
-/// Results of all searches: lower, upper, exact, method; value if the bounds are within tolerance.
+/// Report of lower, upper, exact and method; also of value if the bounds are within the tolerance.
 Report report_of(const SearchResult& found, double tolerance, const char* method);
 
 /// Reports progress of a search between these bounds: the fraction of the gap closed, and the

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // The worst interval of points on a line: a maximum-subarray problem. Consider boxes that contain
-// all points of the line on the other axes; h is the product of their sides there times the scale
-// of box_grid.hpp, w the weight. The excess of such a box is h * length - w * (number of points) if
-// it is open, and the negative of this if it is closed. Let P_i and Q_i be h * length - w * (number
-// of points) of the interval from 0 to point i, without and with the point itself:
+// all points of the line on the other axes. Let w be the weight of a point, and h the product of
+// the box's sides on these axes times the scale of box_grid.hpp. With # points inside, the excess
+// is h * length - w # if the box is open, and the negative of this if it is closed. Let P_i and Q_i
+// be h * length - w # of the interval from 0 to point i, without and with the point itself:
 //
 //     P_i = h x_i - w #{before i},      Q_i = P_i - w;
 //
@@ -53,7 +53,7 @@ WorstInterval<Number> worst_interval(std::size_t n, const LineTerms<Number>& lin
     const bool torus = line.torus;
     const Number around = open ? line.all - line.points : line.points - line.all;
     WorstInterval<Number> best{around};
-    // The circle cut at a point is at least as bad as the whole one, so only cut ones are tried.
+    // The circle cut at a point is at least as bad as uncut, which counts only without points.
     if (torus && n > 0) best.excess = -(line.all + line.points);
     Number highest = 0;
     Number lowest = 0;  // Q at the line's start, at which an open interval may begin

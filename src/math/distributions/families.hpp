@@ -61,7 +61,7 @@ MarginalPtr make_marginal(std::string_view family, const NamedNumbers& given,
 
 /// Distribution of measured numbers by their frequencies, or interpolated if `linear`.
 /// @param where name of the numbers in messages
-/// @throws Error(kind) "WHERE: 3 occurs twice; ..."
+/// @throws Error(kind) for numbers outside [-1e150, 1e150], or unsuitable for interpolation
 MarginalPtr measured_law(std::vector<double> numbers, bool linear, ErrorKind kind,
                          const std::string& where);
 

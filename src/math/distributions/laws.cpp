@@ -126,7 +126,7 @@ struct LogUniform {
     std::pair<double, double> support() const { return {low, high}; }
 
   private:
-    /// Uses E (x / high)^n = (1 - (low / high)^n) / (n log_ratio).
+    /// Moments from E (x / high)^n = (1 - (low / high)^n) / (n log_ratio).
     MarginalMoments wide_moments() const {
         const auto raw = [&](double n) { return -exp_minus_1(-n * log_ratio) / (n * log_ratio); };
         const double m = raw(1);
@@ -176,7 +176,7 @@ struct Triangular {
         const double rise = std::sqrt(left ? from_low * below : from_high * above);
         const double rest =
             (left ? from_high + above * from_low : from_low + below * from_high) / (1 + rise);
-        const double share = left ? rise : rest;  // fraction of the width, from low
+        const double share = left ? rise : rest;  // (quantile - low) / width
         const double width = high - low;
         return share < 0.5 ? low + share * width : high - (left ? rest : rise) * width;
     }

@@ -48,7 +48,7 @@ class Marginal {
     [[nodiscard]] virtual std::string_view name() const = 0;
 
     /// For a discrete distribution, the smallest outcome x with F(x) > p, or with 1 - F(x) < p in
-    /// the upper tail; if there is none, the largest outcome that some p below 1 gives.
+    /// the upper tail. For p = 1 (upper tail: 0), the largest outcome that any other p gives.
     [[nodiscard]] virtual double quantile(double p, Tail tail = Tail::lower) const = 0;
     [[nodiscard]] virtual double probability(double x, Tail tail = Tail::lower) const = 0;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A distribution truncated to [a, b]. With m = F(b) - F(a), probabilities are sums of positive
-// numbers in the tail where they are smaller:
+// A distribution truncated to [a, b]. With m = F(b) - F(a), quantiles are computed in the tail that
+// has the smaller probability, which is a sum of positive numbers:
 //
 //     quantile(p) = quantile of F(a) + p m in the lower tail,
 //                   or of (1 - F(b)) + (1 - p) m in the upper tail.

@@ -39,8 +39,8 @@ class LineTransform {
     std::unique_ptr<Plan> plan_;
 };
 
-/// Transform of a real function on a product of cyclic groups. The spectrum has n / 2 + 1
-/// frequencies for the last group, if this has order n, and all for the others.
+/// Transform of a real function on a product of cyclic groups. The spectrum has all frequencies of
+/// each group except the last: if this has order n, only 0, 1, ..., n / 2.
 class GroupTransform {
   public:
     /// @param shape orders of the groups, the last one varying fastest
@@ -61,7 +61,7 @@ class GroupTransform {
 /// Name and version of the library.
 std::string fft_library();
 
-/// Licence of a program with this library, as the end of a sentence about stipple's licence.
+/// Licence of a program with this library; the text ends a sentence about stipple's licence.
 std::string_view fft_licence();
 
 /// Loads FFTW's measurements of this machine from a file; does nothing if the file does not exist.

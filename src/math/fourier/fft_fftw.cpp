@@ -17,8 +17,8 @@ namespace {
 
 fftw_complex* as_fftw(double* p) { return reinterpret_cast<fftw_complex*>(p); }
 
-/// Lock for FFTW's planner, which is not thread-safe. A fork waits until no thread plans: the child
-/// has no thread that could release the lock.
+/// Lock for FFTW's planner, which is not thread-safe. fork() waits for this lock: held by another
+/// thread, it would stay locked in the child.
 std::mutex& planner() {
     static std::mutex mutex;
     static const int waits = ::pthread_atfork([] { planner().lock(); }, [] { planner().unlock(); },

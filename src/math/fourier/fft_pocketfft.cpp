@@ -46,7 +46,7 @@ struct Layout {
 };
 
 #define POCKETFFT_NO_MULTITHREADING  // lines are already divided among threads
-#define POCKETFFT_CACHE_SIZE 4       // plans; a search in a product of groups needs few
+#define POCKETFFT_CACHE_SIZE 4       // number of plans kept; few are in use at a time
 #define STIPPLE_KERNELS "math/fourier/pocketfft_lanes.hpp"
 #include "core/machine/vector_widths.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Numbers of a grid, initially 0, aligned for transforms and vectors: to a cache line, and in large
-// pages if they are many.
+// Numbers of a grid, initially 0, aligned to cache lines for transforms and vectors; in large pages
+// if there are many.
 #pragma once
 
 #include <cstddef>

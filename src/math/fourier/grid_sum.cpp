@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t block = std::uint64_t{1} << 18;  // number of cells per block
 
-// Adding 1.5 x 2^52 units rounds to a multiple of the unit, which is in the double's last bits.
+// Adding 1.5 * 2^52 units rounds x to a multiple of the unit, held in the sum's low bits.
 constexpr double coarse_unit = 0x1p-21;
 constexpr double fine_unit = 0x1p-64;
 constexpr double coarse_magic = 0x1.8p52 * coarse_unit;
@@ -36,8 +36,8 @@ double signed_of(std::uint64_t bits) {
     return static_cast<double>(static_cast<std::int64_t>(bits));
 }
 
-/// Smallest multiple of 4 with size <= 2^exponent. It is at most 16 size, so that rounding a cell
-/// changes it by at most 2^-61 of `size`.
+/// Smallest multiple of 4 with 2^exponent >= size. As 2^exponent < 16 size, rounding a cell changes
+/// it by at most 2^-61 of `size`.
 int exponent_of(double size) {
     if (!(size > 0)) return 0;
     constexpr int farthest = 1000;

@@ -7,8 +7,8 @@
 // grouping. Sums for different powers of two are added in a fixed order. So the rounding errors are
 // relative to the magnitude of each grid.
 //
-// Shape   16 bytes per cell and power of two in use; cells below 2^29 times this power, and sums of
-//         up to 2^20 grids, below 2^42 times it.
+// Shape   16 bytes per cell and power of two in use. In units of this power, cells are below 2^29,
+//         and sums of up to 2^20 grids below 2^42.
 #pragma once
 
 #include <cstdint>

@@ -112,11 +112,11 @@ KaiserBessel window_for(double tolerance, double band) {
 }
 
 WeightTable::WeightTable(const KaiserBessel& window) : width_(window.width()), pieces_(2) {
-    // Error of interpolating a wave at the end of the band by a polynomial through a piece's
-    // Chebyshev nodes; that of interpolating the weights is about as large.
     constexpr std::size_t most_pieces = 64;  // more give no gain, because values are rounded
     const double allowed = std::max(0.05 * window.error(), 1e-15);
     const auto terms = static_cast<double>(degree() + 1);
+    // Error of interpolating a wave at the end of the band by a polynomial through a piece's
+    // Chebyshev nodes; that of interpolating the weights is about as large.
     const auto error = [&] {
         const double turn = std::numbers::pi * window.band() / static_cast<double>(pieces_);
         return 2 * std::pow(turn / 2, terms) / std::tgamma(terms + 1);

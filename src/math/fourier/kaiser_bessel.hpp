@@ -41,9 +41,8 @@ class KaiserBessel {
     /// The window's transform s(xi), for xi in [0, band].
     [[nodiscard]] double scaling(double xi) const;
 
-    /// The window at the `width` grid points around a point.
-    /// @param u in [0, 1]: the point's distance in cells from grid point floor(width / 2) - 1, the
-    /// first being 0; for odd widths, this distance minus 1/2
+    /// The window at the grid points 0, ..., width - 1 around a point.
+    /// @param u in [0, 1], for a point at the position u + width / 2 - 1
     [[nodiscard]] std::array<double, max_width> weights(double u) const;
 
     /// Largest error of exp(-2 pi i xi x), |xi| <= band, for one point in one dimension, after

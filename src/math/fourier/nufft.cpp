@@ -19,8 +19,8 @@ namespace {
 double cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
                const KaiserBessel& window) {
     const auto width = static_cast<double>(window.width());
-    // Mean over machines with vectors of four and of eight doubles, where one of eight costs as
-    // much as two of four: the choice must not depend on the machine.
+    // Mean over machines with vectors of four and of eight doubles, because the choice must not
+    // depend on the machine. A vector of eight costs as much as two of four.
     const double vectors = std::ceil(width / 4) / 2 + std::ceil(width / 8);
     const double d = static_cast<double>(dimension);
     const double cells = real_power_of(side, dimension);
@@ -39,8 +39,8 @@ constexpr double reserve = 1.2;
 
 /// True if the division by the scaling factors keeps rounding errors small enough.
 bool keeps_digits(const KaiserBessel& window, std::size_t dimension, double allowed) {
-    // Limits found by trial, for the largest errors per point: in sums over coinciding points, and
-    // in the window's polynomials on each axis.
+    // Limits found by trial: the first for errors of sums over coinciding points, the second for
+    // errors of the window's polynomials on each axis. All errors are per point.
     const double times = window.magnification();
     return 1e-15 * std::pow(times, dimension) <= std::max(allowed / 8, 2e-14) &&
            6e-15 * times <= std::max(allowed / 16, 4e-14);
@@ -50,8 +50,8 @@ bool keeps_digits(const KaiserBessel& window, std::size_t dimension, double allo
 
 double rounding_floor(std::size_t count) {
     const auto n = static_cast<double>(count);
-    // Errors per point were below 7e-14 for n up to 10^6; for larger n they come from sums over
-    // more and more buffers of a tile.
+    // The measured error per point was below 7e-14 for n up to 10^6. For larger n it comes from
+    // adding up more and more buffers of the same tile.
     return (1.5e-13 + n * 0x1p-62) * std::sqrt(n);
 }
 

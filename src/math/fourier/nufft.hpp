@@ -58,7 +58,7 @@ class Nufft {
     [[nodiscard]] std::size_t side() const { return side_; }
     [[nodiscard]] const KaiserBessel& window() const { return window_; }
 
-    /// Bound on the error for `count` points, without rounding, relative to sqrt(count).
+    /// Bound on the error for `count` points, excluding rounding, relative to sqrt(count).
     [[nodiscard]] double error(double count) const;
 
   private:
@@ -84,7 +84,7 @@ class FourierSummation {
 
     /// Packs the sum over the points so far. No points may be added afterwards.
     void pack(Packer& to, const RunContext& run);
-    /// Adds the packed sum over other points. This object's own points must be whole blocks.
+    /// Adds the packed sum over other points. This object's own points must fill whole blocks.
     void merge(Unpacker& from, const RunContext& run);
 
     /// Returns the sums over all points; must be called once, after the last point.

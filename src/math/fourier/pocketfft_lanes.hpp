@@ -5,7 +5,7 @@
 // for every width. Headers that the library needs are included before.
 
 #undef POCKETFFT_HDRONLY_H
-#undef PYTHONIC_INCLUDE_NUMPY_FFT_POCKETFFT_HPP  // the guard of Debian's copy
+#undef PYTHONIC_INCLUDE_NUMPY_FFT_POCKETFFT_HPP  // include guard of Debian's copy
 #include POCKETFFT_HEADER
 
 inline std::complex<double>* as_complex(double* p) {

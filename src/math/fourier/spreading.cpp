@@ -23,8 +23,8 @@ double smallest_tile(std::size_t dimension) {
 constexpr std::size_t streams = 2;
 constexpr std::size_t stream_chunk = std::size_t{1} << 15;
 constexpr std::size_t round_of_streams = streams * stream_chunk;
-constexpr std::size_t sorting_block = std::size_t{1} << 12;  // number of points that fit the caches
-constexpr std::size_t tiles_at_a_time = 128;  // tiles of one colour before the next colour
+constexpr std::size_t sorting_block = std::size_t{1} << 12;  // in points; they fit the caches
+constexpr std::size_t tiles_at_a_time = 128;  // tiles of a colour spread before those of the next
 
 /// Maximum number of points summed in a tile's buffer: shorter sums have smaller rounding errors.
 constexpr std::size_t fold_after = 512;

@@ -18,7 +18,7 @@ using PairInMemory = double __attribute__((vector_size(16), aligned(8), may_alia
 /// Number of lines whose transform takes about a quarter of a millisecond.
 std::size_t lines_at_a_time(std::size_t side) { return std::max<std::size_t>(1, 65536 / side); }
 
-constexpr std::size_t batch_size = 16;  // columns transformed together, from shared cache lines
+constexpr std::size_t batch_size = 16;  // columns transformed together, as they share cache lines
 
 /// Number of rows transformed before they are scaled, so that they are still in the cache.
 constexpr std::size_t rows_at_a_time = 8;

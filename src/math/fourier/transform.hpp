@@ -38,8 +38,8 @@ struct FourierSums {
 /// Number of values in FourierSums.
 double fourier_sums_size(std::size_t dimension, std::size_t max_frequency);
 
-/// Distance between rows of a grid, in numbers: enough to transform a row in place and, for sides
-/// of 256 or more, not a power of two, which would map a column to few cache lines.
+/// Distance between rows of a grid, in numbers, with room to transform rows in place. Not a power
+/// of two for sides >= 256 of quick_length(): it would map a column to few cache lines.
 std::size_t stride_of(std::size_t side);
 
 /// Smallest even side >= `least` that is fast to transform: a power of two times an odd number with

@@ -93,7 +93,7 @@ STIPPLE_INLINE void by_axis(const double* points, std::size_t count, std::size_t
 constexpr std::size_t margin = lanes;
 
 /// Number of vectors for the values of a window of width 4 Fours - 3 to 4 Fours. Windows of these
-/// widths differ only in their number of rows.
+/// widths need the same vectors, and differ in their number of rows.
 constexpr std::size_t vectors_of(std::size_t fours) { return (4 * fours + lanes - 1) / lanes; }
 
 template <std::size_t Dimension, std::size_t Fours>

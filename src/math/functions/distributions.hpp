@@ -14,8 +14,8 @@ namespace stipple {
 double chi_square_below(double statistic, double freedom);
 double chi_square_above(double statistic, double freedom);
 
-/// Noncentrality at which a chi-square test of two-sided level `level` rejects a statistic as too
-/// large with probability 0.9.
+/// Noncentrality at which a chi-square test rejects a statistic as too large with probability 0.9.
+/// `level` is the level of the two-sided test.
 double detectable_noncentrality(double freedom, double level);
 
 /// Probability that Student's t with `freedom` degrees of freedom is above t, 0 <= t <= 1e150.

@@ -5,7 +5,7 @@
 
 namespace stipple {
 
-/// Returns (...(first x + second) x + ...) x + last, without a loop: loops over it vectorise.
+/// Returns (...(first x + second) x + ...) x + last. Has no loop, so callers' loops vectorise.
 template <class... Coefficients>
 [[gnu::always_inline]] constexpr double horner(double x, double first, Coefficients... rest) {
     double sum = first;

@@ -44,8 +44,8 @@ struct Rise {
 
 /// Returns the t at which the logarithm of an increasing probability is log_p. As functions of log
 /// x and of log(x / (1 - x)), gamma and beta densities are log-concave, and so are their
-/// probabilities: Newton steps from any start converge from below. Bisection replaces them if a
-/// value is not finite.
+/// probabilities. So Newton steps from any start converge from below. Steps that leave the known
+/// bounds or are not finite are replaced by bisection.
 template <class Function>
 double solve(const Function& probability, double log_p, double t) {
     double low = -745;

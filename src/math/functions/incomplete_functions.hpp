@@ -35,7 +35,7 @@ double log_gamma(double x);
 /// Gamma(x + delta) / Gamma(x).
 double gamma_ratio(double x, double delta);
 
-/// a log(ratio), with an error of at most 2^-62 relative to it, or 2^-105 a if that is larger.
+/// a log(ratio), with an error of at most 2^-62 of its value or 2^-105 a, whichever is larger.
 DoubleDouble log_share(double a, const DoubleDouble& ratio);
 
 double gamma_below(double a, double x);    ///< P(a, x)

@@ -43,9 +43,9 @@ double far_ratio(double x) {
 
 constexpr std::size_t numbers_at_once = 128;
 
-/// Computes quantiles without the far tail. Returns whether all are valid; otherwise the caller
-/// computes the batch again. The marks are 16-bit, so that a vector holds many and many chains of
-/// operations run in parallel; Clang needs a pragma for that.
+/// Computes quantiles outside the far tails. Returns false if some p is in one; then the caller
+/// computes the batch again. 16-bit marks, many in a vector, let many chains of operations run in
+/// parallel; Clang needs a pragma for that.
 STIPPLE_WIDE [[gnu::flatten]] bool quantiles(const double* p, double* x, std::size_t count) {
     constexpr double far = 1.4e-11;  // a little above exp(-25)
     std::array<std::uint16_t, numbers_at_once> marks;

@@ -41,7 +41,7 @@ namespace detail {
 struct CubeRootStart {
     double t;
     double root;          ///< guess of the cube root of t, relative error 2e-7
-    std::uint64_t third;  ///< 341 is a third of the exponent's bias 1023
+    std::uint64_t third;  ///< a third of the biased exponent; 341 is that of the bias
 };
 
 /// Splits a number of at least 2^-1022, and guesses the cube root of its part t.

@@ -11,9 +11,9 @@
 
 namespace stipple {
 
-/// Splits cells first, ..., first + count - 1 into rows along the first coordinate, and calls
-/// row(cell, offset, length) for each: `length` cells from `cell` on, the first of which is number
-/// first + offset.
+/// Splits cells first, ..., first + count - 1 into rows along the first coordinate. Calls row(cell,
+/// offset, length) for each row: `length` cells from `cell` on, which has the number first +
+/// offset.
 template <class Row>
 void for_each_lattice_row(std::span<const std::uint64_t> shape, std::uint64_t first,
                           std::size_t count, const Row& row) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Exact moments of distributions: of a shape given in its own frame and placed in the plane, of one
-// symmetric about an axis, of triangles, of independent coordinates, and of weighted mixtures.
+// Exact moments of distributions: shapes placed in the plane, distributions in space with an axis
+// of symmetry, triangles, independent coordinates, and weighted mixtures.
 //
 // All are central moments about the mean m, so that shapes far from 0 lose no digits:
 //

@@ -177,7 +177,7 @@ bool turns_before(const Arm& a, const Arm& b) {
     return up_a != up_b ? up_a : orientation(a.at, a.away, b.away) > 0;
 }
 
-/// Returns a crossing of rings in a shared vertex, or a ring that passes it twice, or nullopt.
+/// Returns a contact if rings cross in the arms' vertex, or if a ring passes it twice; or nullopt.
 std::optional<Contact> crossing_among(std::span<Arm> arms) {
     std::ranges::sort(arms, {}, &Arm::name);
     for (std::size_t i = 2; i < arms.size(); ++i)

@@ -63,7 +63,7 @@ struct Basis {
     Vector v;
 };
 
-/// Basis with the longest u, low <= |u|^2 <= high and 0 <= u.y <= u.x; other u follow by symmetry.
+/// Basis with |v| >= |u| and the longest u, low <= |u|^2 <= high; tries only 0 <= u.y <= u.x.
 std::optional<Basis> best_within(std::uint64_t low, std::uint64_t high, std::int64_t n) {
     std::optional<Basis> best;
     for (std::uint64_t a = floor_root(high, 2); 2 * a * a >= low; --a) {
@@ -116,7 +116,7 @@ std::optional<Vector> partner(Vector u, std::int64_t n, const Metric& metric) {
                    static_cast<std::int64_t>(far_y - turns * (u.y / g))};
     const double half = metric.norm(u) / 2;
     const double step = metric.norm(u) / static_cast<double>(g);
-    constexpr double rounding = 1e-9;  // in steps: the best component may be exactly half of u
+    constexpr double rounding = 1e-9;  // in steps; keeps a component of exactly u / 2
     const double along = metric.dot(u, v);
     const auto up = static_cast<std::int64_t>(std::floor((half - along) / step + rounding));
     const auto down = static_cast<std::int64_t>(std::ceil((-half - along) / step - rounding));
@@ -127,7 +127,7 @@ std::optional<Vector> partner(Vector u, std::int64_t n, const Metric& metric) {
     return moved(above ? up : down);
 }
 
-/// Basis with the longest u, low <= |u|^2 <= high and u.x, u.y >= 0; other u follow by reflection.
+/// Basis with |v| >= |u| and the longest u, low <= |u|^2 <= high; tries only u.x, u.y >= 0.
 std::optional<Basis> best_within(double low, double high, std::int64_t n, const Metric& metric) {
     std::optional<Basis> best;
     const auto last = static_cast<std::int64_t>(std::sqrt(high / metric.x2));

@@ -57,7 +57,7 @@ class Kernel {
     /// Returns K(x, x).
     [[nodiscard]] virtual double diagonal(const double* x) const = 0;
 
-    /// Mean of K(x, y) over y in the target: the unit cube, a domain, or the density of the scores.
+    /// Mean of K(x, y) for random y of the target: the cube, a domain, or the scores' density.
     [[nodiscard]] virtual double mean(const double* x) const = 0;
 
     /// Mean of K over both arguments in the target.

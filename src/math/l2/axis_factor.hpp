@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Factor of the kernel on one axis, k or 1 + w k, with coefficients of 113 bits:
+// Factor of the kernel on one axis, k or 1 + weight k, with coefficients of 113 bits:
 //
 //     own(x) + own(y) + product x y + distance |x - y|.
 #pragma once

@@ -149,7 +149,7 @@ struct Minimum {
             where_less(mine, other, rows(row + block_width), columns(block + block_width)),
             where_less(mine, other, rows(row + 2 * block_width), columns(block + 2 * block_width))};
     }
-    /// Per-point factors, for a block whose points all precede those of the other block.
+    /// The factor of a point of this block if all its points precede those of the other block.
     STIPPLE_INLINE static Compensated<V> own(const double* block) {
         return {load(block + block_width), load(block + 2 * block_width)};
     }
@@ -270,7 +270,7 @@ STIPPLE_INLINE Compensated<Group> factor_of(const GroupPair& g, std::size_t fact
                           g.table.factors()[factor]);
 }
 
-/// First operand of products(): the columns' own products, or the first factor.
+/// Start of products(): the columns' own products if Kernel::separates, else the first factor.
 template <class Kernel>
 STIPPLE_INLINE Compensated<Group> first_factor(const GroupPair& g, std::size_t k) {
     const PointProducts& own = g.pair.column_products;
@@ -296,8 +296,8 @@ STIPPLE_INLINE Compensated<Group> products(const GroupPair& g, std::size_t k) {
 }
 
 /// Adds the products of a group of rows with a block to the sums from `lane` on. Each lane has the
-/// same sum for vectors of any width. Rows that have products of their own are summed separately,
-/// and then multiplied by these.
+/// same sum for vectors of any width. If Kernel::separates, each row is summed separately and
+/// multiplied by its own product.
 template <class Kernel>
 STIPPLE_INLINE void add_lanes(const GroupPair& g, std::size_t lane, LaneSums& sums) {
     constexpr std::size_t apart = Kernel::separates ? group : 1;

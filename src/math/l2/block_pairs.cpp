@@ -112,7 +112,7 @@ class Rows {
         return known_in_order(rows, columns);
     }
 
-    /// Sorts the factors by what is Known of them for the pair with block b.
+    /// Sorts the factors by their Known property for the pair of this block with block b.
     void compare_with(std::size_t b) {
         pair_.columns = table_.block(b);
         pair_.full = (std::max(block_, b) + 1) * block_width <= table_.count();

@@ -24,7 +24,7 @@ enum class PairForm { minimum, two_sided, bernoulli, linear, mixture, one_plus_m
 struct AxisConstants {
     double base = 0;
     double base_error = 0;
-    double offset = 0;  ///< amount added to the base, and subtracted from the factor again
+    double offset = 0;  ///< part of `base` that is subtracted again from the factor
     double vertex = 0;  ///< |x - y| at a parabola's vertex, or at mid-range for linear factors
 };
 

@@ -216,7 +216,7 @@ class ThreeProducts {
           distance_(fixed_of(axis.distance)),
           root_(fixed_of(sqrt(Quad(-axis.product)))) {}
 
-    /// Own terms if the product is c c' instead of x y = c c' + x / 2 + y / 2 - 1/4.
+    /// Own terms if c c' replaces x y = c c' + x / 2 + y / 2 - 1/4 in the factor.
     static AxisFactor::Curve own_of(const AxisFactor& axis) {
         AxisFactor::Curve own = axis.own;
         own[0] -= axis.product / 8;
@@ -231,7 +231,7 @@ class ThreeProducts {
 
 struct Item {
     std::array<std::uint64_t, max_axes> at;
-    Fixed weight = unity;     ///< product of the item's factors on divided axes; for OneProduct
+    Fixed weight = unity;     ///< for OneProduct: product of factors on divided axes
     std::uint32_t point;      ///< index in the order of the last axis
     std::uint32_t upper = 0;  ///< bit set of the axes on which the point was in an upper half
 
@@ -491,7 +491,7 @@ Square square_of(const PointSet& points, Kind kind, const AxisWeights& weights,
     const Quad count = n;
     const Quad squared = total - 2 * means.value() / count + pairs / (count * count);
     const auto value = squared.convert_to<double>();
-    // A pair takes about ten steps, each with an error of 2^-91 of its factors. The derivative of a
+    // A pair takes about ten roundings, each by up to 2^-91 times its factors. The derivative of a
     // product by a coordinate is at most four times the largest product.
     const double most = most_of(axes);
     const double moved = 0x1p-62 * most * static_cast<double>(rounded) / static_cast<double>(n);
@@ -522,7 +522,7 @@ bool divides(std::size_t dimension, Kind kind, const AxisWeights& weights) {
 }
 
 bool divide_wins(std::size_t count, std::size_t dimension, Kind kind) {
-    // Counts found by measurement; star and modified have half as many factors per pair.
+    // Measured counts. star and modified have half as many factors per pair in pair_square().
     if (!is_one_product(dimension, kind, {}))
         return count >= 50'000 && count <= std::size_t{1} << 23;
     if (count >= std::size_t{1} << 27) return false;  // sums could overflow

@@ -119,17 +119,17 @@ class FactorForm {
         return factors() == 2 ? one * one : one;
     }
 
-    /// Number added to a factor and subtracted again, so that no intermediate sum comes near 0.
+    /// Number added to a factor and subtracted again, to keep intermediate sums away from 0.
     [[nodiscard]] double offset() const {
         const bool small =
             (is_of_distance() && base_ < reach()) || (is_one_plus_minima() && base_ < Quad(0.5));
         return small ? 1 : 0;
     }
 
-    /// True if factors may come near 0, so that their errors are relative to the largest value.
+    /// True if factors may come near 0: their errors are then relative to the largest factor.
     [[nodiscard]] bool may_vanish() const { return is_of_distance() && offset() != 0; }
 
-    /// Ratio of intermediate numbers to the factor, for error bounds.
+    /// Bound on intermediate numbers relative to the factor; 0 if none can be much larger.
     [[nodiscard]] double cancellation() const {
         return is_one_plus_minima() ? static_cast<double>(1 / base_) : 0;
     }
@@ -192,8 +192,8 @@ class FactorForm {
     Quad scale_;
     Quad base_ = 0;
     double step_ = 0;
-    DoubleDouble top_ = {};     ///< number from which a coordinate or its half is subtracted
-    DoubleDouble bottom_ = {};  ///< number to which a part of a coordinate is added
+    DoubleDouble top_ = {};     ///< put() subtracts a coordinate or its half from it
+    DoubleDouble bottom_ = {};  ///< put() adds a part of a coordinate to it
 };
 
 /// The axes with nonzero weights.
@@ -401,7 +401,7 @@ Factors factors_of(const Axes& axes) {
     return factors;
 }
 
-/// Products up to 2^safe_digits neither overflow nor magnify digits lost by underflow too much.
+/// Products up to 2^safe_digits cannot overflow, and hardly magnify digits lost by underflow.
 constexpr double safe_digits = 850;
 
 BlockTable table_of(PairForm form, const Numbers& numbers, const Scaling& scaling,
@@ -426,7 +426,7 @@ BlockTable table_of(PairForm form, const Numbers& numbers, const Scaling& scalin
 /// Combined data of the axes' factors.
 struct AxisProducts {
     Quad total = 1;  ///< mean over both points of the products
-    Quad scale = 1;  ///< divisor of the products in the sum over pairs
+    Quad scale = 1;  ///< multiplies the sum over pairs of scaled products
     Quad most = 1;   ///< upper bound on all products
     double cancellation = 0;
     bool may_vanish = false;

@@ -103,7 +103,7 @@ void add_features(std::array<LongSum, 3>& sums, Uint128 a, const Features& phi) 
     sums[2].add_product(a, phi.from_middle);
 }
 
-/// Sums over points in order of t; i counts the points before, T and W sum t and w over these.
+/// Sums over points in order of t; T and W sum t and w over the i points before each.
 struct AxisSums {
     std::array<std::array<LongSum, 3>, 4> moments;  ///< phi_p(t) phi_q(w), q > 0
     std::array<LongSum, 3> alone;                   ///< phi_p(t), p > 0
@@ -254,8 +254,8 @@ std::vector<Item> by_first_axis(const PointSet& points, const RunContext& run) {
     return items;
 }
 
-/// Sums V of an axis (see the top), from the moments of the other coordinate w: those of w alone in
-/// `alone`, and those multiplied by the coordinate t on this axis in `with_t`.
+/// Sums V of an axis with the coordinate t (see the top). `alone` has the moments of the other
+/// coordinate w alone, `with_t` those multiplied by t.
 PlaneSums::Symmetric along(const AxisSums& sums, const std::array<Integer, 4>& alone,
                            const std::array<Integer, 4>& with_t, const Integer& sum_t) {
     const Integer n = alone[0];
@@ -342,12 +342,12 @@ double quotient(const Integer& value, std::size_t n, unsigned axes) {
     return Fraction(value, below).convert_to<double>();
 }
 
-/// Scales a value of some degree in the coordinates to degree 2 on each axis, for additions.
+/// Scales a value of degree `degrees` in the coordinates to degree 2 on each axis, for additions.
 Integer scaled(const Integer& value, unsigned degrees, unsigned axes) {
     return value << (fraction_bits * (2 * axes - degrees));
 }
 
-/// Squared discrepancy on one axis, from the moments and V_00 along it.
+/// Squared discrepancy on one axis, from the moments and from `spread`, the sum V_00.
 double axis_square(const std::array<Integer, 4>& moments, const Integer& spread,
                    const AxisKernel& kernel) {
     const Integer& n = moments[0];

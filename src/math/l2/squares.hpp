@@ -29,14 +29,14 @@ struct PlaneSums {
 
     std::size_t count = 0;
     std::array<std::array<Integer, 4>, 4> moments;  ///< M_pq, p on the first axis, q on the second
-    std::array<Symmetric, 2> along;                 ///< V of each axis, with phi of the other
+    std::array<Symmetric, 2> along;                 ///< V along one axis, with phi of the other
     Integer planar;                                 ///< T
 };
 
 /// Sums over points with one or two coordinates in [0, 1]; a missing second coordinate is 0.
 PlaneSums plane_sums(const PointSet& points, const RunContext& run);
 
-/// Squared discrepancy: for each projection the double nearest to the exact value, or the next.
+/// Squared discrepancy; the term of each projection is rounded to one of the two nearest doubles.
 double plane_square(const PlaneSums& sums, std::size_t dimension, Kind kind,
                     const AxisWeights& weights);
 
@@ -49,8 +49,8 @@ bool divide_wins(std::size_t count, std::size_t dimension, Kind kind);
 /// Bytes that divide_square() needs.
 double divide_memory(std::size_t count, std::size_t dimension, Kind kind);
 
-/// Squared discrepancy by divide and conquer. Requires divides() and at most as many points as
-/// divide_wins() allows.
+/// Squared discrepancy by divide and conquer. Requires divides(), and not more points than the
+/// largest count for which divide_wins() is true.
 Square divide_square(const PointSet& points, Kind kind, const AxisWeights& weights,
                      const RunContext& run);
 

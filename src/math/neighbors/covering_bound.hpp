@@ -82,11 +82,11 @@ class CoveringBound {
     [[nodiscard]] std::size_t d() const { return D > 0 ? D : dimension_; }
     [[nodiscard]] std::size_t rows() const { return d() + 1; }
 
-    /// True for the columns of points, after 2 D columns of slacks, +k and -k alternately.
+    /// True for columns of points. Columns 2 k and 2 k + 1, k < D, are the slacks +k and -k.
     [[nodiscard]] bool is_point(std::size_t id) const { return id >= 2 * d(); }
     static std::size_t slack(std::size_t k, bool negative) { return 2 * k + (negative ? 1 : 0); }
 
-    /// Starts with all weight on the nearest point, and with slacks for its coordinates.
+    /// Starts with all weight on the nearest point; slacks of its coordinates complete the basis.
     void begin(const Point& half) {
         const auto by_norm = [](const Candidate& a, const Candidate& b) { return a.norm < b.norm; };
         const auto nearest = std::ranges::min_element(points_, by_norm);

@@ -207,7 +207,7 @@ void Delaunay::relink(std::uint32_t t, std::uint32_t from, std::uint32_t to) {
 }
 
 /// Finds the triangle that contains a position, walking from the last one.
-/// @param on_edge set to the corner opposite to an edge that contains the position, or 3
+/// @param on_edge set to the corner opposite to an edge that contains the position; 3 if none does
 std::uint32_t Delaunay::locate(const double* place, std::size_t& on_edge) const {
     std::uint32_t t = last_;
     for (std::size_t turn = 0;; turn = after(turn)) {

@@ -53,7 +53,7 @@ class Delaunay {
 
   private:
     static constexpr std::uint32_t none = 0xffff'ffff;
-    static constexpr std::uint32_t outer = 4;  ///< enclosing square's corners, numbered first
+    static constexpr std::uint32_t outer = 4;  ///< corners of the outer square, before the points
 
     /// Corners in counterclockwise order; across[k]: triangle beyond the edge opposite corner k.
     struct Triangle {

@@ -14,8 +14,8 @@ namespace {
 
 constexpr double points_in_cell = 2;
 
-/// Limit of the mean number of points in a point's own cell, including itself. For random points it
-/// is 3; a tree becomes faster at about ten times as many.
+/// Limit of the mean number of points in a point's own cell, including itself. This mean is 3 for
+/// random points; a tree becomes faster if it is about 30.
 constexpr double crowded = 24;
 
 /// Side of cubes such that `cells` of them fill the box. Flat directions have one layer.
@@ -68,7 +68,7 @@ std::optional<std::vector<Neighbor>> all_nearest_by_grid(std::span<const double>
                                                          const RunContext& run) {
     const std::size_t d = box.dimension();
     if (d > 3 || rows.size() / d >= std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
-    for (std::size_t k = 0; k < d; ++k)  // so that squares neither vanish nor overflow
+    for (std::size_t k = 0; k < d; ++k)  // refuses sides whose squares would vanish or overflow
         if (const double x = box.extent(k); x != 0 && !(x > 1e-140 && x < 1e140))
             return std::nullopt;
     return with_dimension<3>(d,

@@ -264,8 +264,8 @@ auto KdTree::with_metric(const Work& work) const {
                                                          : with_dimension<most>(dimension_, with);
 }
 
-/// Visits the leaves that the query wants, the nearest first. The query wants a node if a point at
-/// the node's bound with the node's lowest index could change its result.
+/// Visits the leaves that the query wants, the nearest first. The query wants a node if a point as
+/// near as the node's bound, and with its lowest index, could change the query's result.
 template <class Metric, class Query>
 void KdTree::search(const Metric& metric, const double* place, Query& query) const {
     struct Entry {

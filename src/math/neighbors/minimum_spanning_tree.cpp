@@ -37,8 +37,8 @@ class Parts {
     std::vector<std::uint32_t> parents_;
 };
 
-/// Grows all parts at once. For each point, the nearest point outside its part is kept until both
-/// are in one part; no nearer one can appear before.
+/// Grows all parts at once. For each point, keeps the nearest point outside its part until that
+/// joins the part: as parts only grow, no nearer one can appear.
 class Growth {
   public:
     Growth(const KdTree& tree, const RunContext& run)

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// A cell is a set of boxes with arbitrary sides on the first axis, whose sides on the other axes
-// begin and end in given ranges. Let V be the product of the sides on the other axes. The points
-// inside on all other axes, ordered along the first axis, are the cell's line. Then
+// A cell is a set of boxes with any interval on the first axis, and with intervals on the others
+// that begin and end in given ranges. Let V be a box's volume without the first axis. The points
+// that are inside some box on all other axes form the cell's line, ordered along the first axis. A
+// point is decided if it is inside all boxes on all other axes. Then
 //
-//     open:    excess <= excess of the worst interval for the largest V and the points inside all
-//                        boxes of the cell (decided),
-//     closed:  likewise for the smallest V and the points inside some box (decided or not).
+//     open:    excess <= that of the worst interval for the largest V and the decided points,
+//     closed:  excess <= that of the worst interval for the smallest V and all points of the line.
 //
 // Between two undecided points, most decided ones are dominated by a neighbour, so they cannot be
 // ends of a worst interval for any V of the cell. On the cube these are pruned, and only their
@@ -110,7 +110,7 @@ RankSet ranks_of(const Ends& ends, Extent extent, Side side) {
     return ranks_between(interval_of(ends, extent), side, ends.wraps.first == 1);
 }
 
-/// Length of the cell's largest or smallest interval on an axis. `one` is the Number for length 1.
+/// Length of the cell's largest or smallest interval on an axis; `one` is length 1 in this type.
 template <class Number, class ValueAt>
 Number length_of(const Ends& ends, Extent extent, const Number& one, const ValueAt& value_at) {
     if (!ends.wraps.single()) return extent == Extent::outer ? one : Number(0);
@@ -146,7 +146,7 @@ Integer exact_section(const BoxGrid& grid, const Cell& cell, Extent extent) {
     return product;
 }
 
-/// Entries of a line that enter a bound, and the number of points before each of them.
+/// Entries of a line that a bound counts, and the number of points before each of them.
 struct Counted {
     std::vector<std::uint32_t> entries;
     std::vector<std::uint32_t> before;
@@ -166,7 +166,7 @@ Counted counted_of(const Line& line, Side side) {
     return counted;
 }
 
-/// Worst interval on a cell's line, excess times 2^all_digits; `all` is the section times scale.
+/// Worst interval on a cell's line, with its excess times 2^all_digits; `all` is scale * section.
 WorstInterval<Integer> worst_on(const BoxGrid& grid, Side side, const Line& line,
                                 const Counted& counted, const Integer& all) {
     const auto height = [&](double x) { return Integer(all * scaled(x, grid.digits[0])); };
@@ -182,7 +182,7 @@ WorstInterval<Integer> worst_on(const BoxGrid& grid, Side side, const Line& line
         [&](std::size_t i) { return Integer(weight * counted.before[i]); });
 }
 
-/// Box of a cell with a single interval on every axis except the first, where it is `found`.
+/// Box with the interval `found` on the first axis; the cell has only one interval on the others.
 GridBox box_of(const BoxGrid& grid, const Cell& cell, const Line& line, const Counted& counted,
                const WorstInterval<Integer>& found) {
     const auto rank = [&](std::size_t i) {
@@ -270,7 +270,7 @@ class CellBounder {
     }
 
     /// Halves a cell on the axis that promises the largest gain. Removes the half with the larger
-    /// boxes and returns it; either half may be without boxes.
+    /// boxes and returns it; either half may contain no boxes.
     Cell split(Cell& cell) const {
         Cell larger = cell;
         std::size_t at = 0;
@@ -387,10 +387,10 @@ class CellBounder {
     }
 
     /// Marks the points of a run that may be ends of a worst interval for some section of the cell.
-    /// The excess up to a point, P or Q of worst_interval.hpp, is a linear function of the section
-    /// with slope x; P and Q differ by a constant. An interval ends at a high P and begins at a low
-    /// Q. A point is dominated if another one is better for all sections: it suffices to compare it
-    /// with larger x at the smallest section, and with smaller x at the largest.
+    /// P and Q of worst_interval.hpp differ by a constant, and are linear in the section with slope
+    /// x. An interval ends at a high P. A point with larger x is better for all sections if it is
+    /// better at the smallest, one with smaller x if at the largest. An interval begins at a low Q;
+    /// there it is the other way round.
     void find_useful(const Stretch& stretch, const Line& line) {
         const std::size_t first = stretch.first;
         const std::size_t n = stretch.last - first;
@@ -510,10 +510,10 @@ class FreeBoxes final : public Problem {
     const RunContext& run_;
 };
 
-// The indicator function of a box is a signed sum of the indicator functions of up to 2^d anchored
-// boxes, or 3^d - 1 on the torus: an interval is the difference of two intervals that begin at 0,
-// plus the whole axis if it wraps, and the whole space has no discrepancy. So a multiple of the
-// star discrepancy bounds the other discrepancies.
+// An interval is the difference of two intervals that begin at 0, plus the whole axis if it wraps.
+// So the indicator function of a box is a signed sum of those of up to 2^d anchored boxes; on the
+// torus 3^d - 1, as the whole space has no discrepancy. This many times the star discrepancy bounds
+// the other discrepancies.
 
 /// Grid for anchored boxes; on the torus, coordinates 1 become 0.
 BoxGrid anchored_grid(const PointSet& points, Family family, const RunContext& run) {
@@ -560,7 +560,7 @@ SearchLimits share_for_bound(const SearchLimits& limits, const RunContext& run) 
 }  // namespace
 
 double search_memory(const PointSet& points, unsigned threads) {
-    // Each split shortens the lines; about every 2 d splits halve their length.
+    // A thread keeps a line for each split; about every 2 d splits halve its length.
     const auto d = static_cast<double>(points.dimension());
     const double lines = std::min(3 * d + 2, 24.0);
     const double per_point = d * static_cast<double>(axis_bytes(false)) + 40 +

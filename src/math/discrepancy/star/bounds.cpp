@@ -50,7 +50,7 @@ struct AxisBox {
     }
 };
 
-/// Worst box of each side, for one axis.
+/// The worst open and the worst closed box of one axis.
 struct Worst {
     AxisBox open;
     AxisBox closed;
@@ -124,14 +124,14 @@ double axis_bound(const BoxGrid& grid, double times) {
     return std::min(1.0, std::max(full, empty) * (1 + rounding) + rounding);
 }
 
-// Upper bound of the star discrepancy from counts at the corners of a coarse grid. If lo <= c <= hi
-// are the corners of the cell that contains c,
+// Upper bound of the star discrepancy from counts at the corners of a coarse grid. If a box has its
+// upper corner c in the grid's cell from lo to hi,
 //
 //     vol(c) - #{x < c} / n <= vol(hi) - #{x <= lo} / n,
 //     #{x <= c} / n - vol(c) <= #{x <= hi} / n - vol(lo).
 //
-// So the worst cell bounds the discrepancy, and exceeds it by at most delta = max (vol(hi) -
-// vol(lo)). The grid is finer towards 1, where volumes change most:
+// So the largest of these bounds holds for all boxes, and exceeds the discrepancy by at most delta
+// = max (vol(hi) - vol(lo)). The grid is finer towards 1, where volumes change most:
 //
 //     1,  x_0 = (1 - delta)^(1/d),  x_(i+1) = (x_i - delta) x_0^(1 - d),  ...,  0.
 //
@@ -153,7 +153,7 @@ std::vector<double> cuts_for(double delta, double dimension) {
     return cuts;
 }
 
-/// Coordinates of the finest grid with up to `most_corners` corners; empty if none is interior.
+/// Coordinates of the finest grid with up to `most_corners` corners; empty if these are too few.
 std::vector<double> finest_cuts(std::size_t dimension, double most_corners) {
     const auto d = static_cast<double>(dimension);
     const double most = std::floor(exponential(logarithm(most_corners) / d) + 1e-9);
@@ -199,7 +199,7 @@ std::vector<std::uint32_t> corner_counts(const BoxGrid& grid, const std::vector<
     return counts;
 }
 
-/// Bound of the worst cell; visits the cells in lines along the last axis.
+/// Largest bound of a cell; visits the cells in lines along the last axis.
 double worst_cell(const BoxGrid& grid, const std::vector<double>& cuts, const RunContext& run) {
     const auto counts = corner_counts(grid, cuts, run);
     const auto points = static_cast<double>(grid.count);
@@ -277,7 +277,7 @@ double share_of(std::size_t t, std::size_t m, std::size_t dimension) {
     return std::ldexp(excess.back(), -static_cast<int>(m));
 }
 
-/// The points as a net, by their first m binary digits.
+/// The n = 2^m points as a net, from the first m binary digits of their coordinates.
 Net net_in_base_two(const BoxGrid& grid) {
     const auto digits = static_cast<std::size_t>(std::countr_zero(grid.count));
     Net net{.base = 2, .digits = digits, .count = grid.count, .dimension = grid.dimension()};
@@ -306,7 +306,7 @@ class NetTest {
         return each * static_cast<double>(binomial(digits + net_.dimension - 1, digits));
     }
 
-    /// True if every division by m - t digits gives boxes with equal counts.
+    /// True if the points are a (t,m,d)-net: divisions by m - t digits all have equal counts.
     [[nodiscard]] bool passes(std::size_t t, const RunContext& run) const {
         const std::size_t digits = net_.digits - t;
         for (std::size_t size = 1; size <= std::min(net_.dimension, digits); ++size) {

@@ -15,7 +15,7 @@
 //     closed   C(y)/n - V(y) <= C(lo)/n - base  - sum_j min over y_j of [step_j(y_j) - c_j(y_j)/n]
 //
 // For open boxes, points undecided on a single axis are assigned to it. For closed boxes all are
-// assigned, each to the undecided axis on which reaching it costs most. The steps are
+// assigned, each to the axis on which the step up to it is about the largest. The steps are
 //
 //     open         step_j = (log hi_j - log y_j) (V(hi) - m) / (log V(hi) - log m)
 //     closed       step_j = (log y_j - log lo_j) v,            base = v (1 + log V(lo) - log v)
@@ -57,8 +57,8 @@ constexpr double tiny = 1e-300;
 /// Bit of a bin, see fill_bins(), that marks its rank as a candidate. The other bits count points.
 constexpr std::uint32_t candidate = std::uint32_t{1} << 31;
 
-/// Number of bins before those of the ranks on an axis, for irrelevant points; several, because
-/// incrementing the same bin repeatedly is slow.
+/// Number of bins before those of the ranks on an axis, for points that do not count on this axis.
+/// Several bins, because incrementing the same one repeatedly is slow.
 constexpr std::int32_t dummy_bins = 16;
 
 /// The upper bits of a point's state count the axes on which it is undecided. The lower bits are
@@ -87,7 +87,7 @@ STIPPLE_WIDE void compare(const std::int32_t* ranks, std::size_t size, std::int3
                     (ranks[i] >= lo ? undecided_unit : 0);
 }
 
-/// Assigns points to `axis` if reaching them from lo, at `price` per rank, costs more than before.
+/// Assigns points to `axis` if `price` times their number of ranks above `lo` exceeds their `cost`.
 STIPPLE_WIDE void assign_to(const std::int32_t* ranks, std::size_t size, std::int32_t lo,
                             float price, std::int32_t axis, float* cost, std::int32_t* axes) {
     for (std::size_t i = 0; i < size; ++i) {
@@ -114,7 +114,7 @@ STIPPLE_WIDE double fill_terms(const double* values, const std::int32_t* ranks,
     return least;
 }
 
-/// Difference between the y of a corner and the rank at which its box ends.
+/// The box of a corner y ends at the rank y - shift.
 template <Side side>
 constexpr std::uint32_t shift = side == Side::open ? 0 : 1;
 
@@ -153,7 +153,7 @@ class CellBounder {
         }
     }
 
-    /// Removes and returns the lower half of the cell last tightened, on split_axis().
+    /// Halves the cell last tightened along split_axis(); removes and returns the lower half.
     Cell split(Cell& cell) const {
         const std::size_t axis = split_axis(cell);
         const auto bins = std::span(bins_[axis]).subspan(dummy_bins);
@@ -174,8 +174,8 @@ class CellBounder {
     [[nodiscard]] std::uint64_t work() const { return work_; }
 
   private:
-    /// Candidates for y on an axis: their distances from lo, and the signed numbers of assigned
-    /// points up to each. Vectors may be longer than `size`.
+    /// Candidates for y on an axis: ranks relative to lo, and counts c_k(y), negative for closed
+    /// boxes. Vectors may be longer than `size`.
     struct Candidates {
         std::size_t size = 0;
         std::vector<std::int32_t> ranks;
@@ -209,8 +209,8 @@ class CellBounder {
     }
 
     /// Sets kept_ to the points to keep, first those below hi on all axes, and state_ to the number
-    /// of undecided axes of each of these. Points inside all boxes are dropped and counted in
-    /// mine.decided, except those that make a coordinate a candidate (ends_at_lo()).
+    /// of axes on which these are undecided. Points inside all boxes are dropped and counted in
+    /// mine.decided, unless they make a coordinate a candidate (ends_at_lo()).
     void select(const Cell& cell, const Active& from, Active& mine) {
         kept_.resize(from.size);
         on_face_.resize(side == Side::open ? from.size : 0);
@@ -247,8 +247,8 @@ class CellBounder {
         return false;
     }
 
-    /// Sorts the active points into bins, and offers the box of hi (open) or lo (closed), whose
-    /// points are thereby counted.
+    /// Counts the points inside the boxes of lo and hi, and sorts the active points into bins.
+    /// Offers the open box of hi or the closed box of lo.
     void count(const Cell& cell, const Active& active) {
         inside_lo_ = active.decided;
         for (std::size_t i = 0; i < active.inside; ++i) inside_lo_ += state_[i] == 0 ? 1U : 0U;
@@ -504,7 +504,7 @@ class AnchoredBoxes final : public Problem {
     }
 
     [[nodiscard]] bool by_stages(const Known& known) const override {
-        constexpr std::uint64_t part = 64;  // 1 / part of the work is spent on an exact value first
+        constexpr std::uint64_t part = 64;  // tries for the exact value with limits.work / part
         return limits_.wants_bounds() ||
                known.work > std::max(SearchLimits::short_work, limits_.work / part);
     }

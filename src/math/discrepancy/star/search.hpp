@@ -24,9 +24,9 @@ SearchResult sweep_or_search(const BoxGrid& grid, WorstBox worst, const SearchLi
 SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run,
                         Peers* peers = nullptr);
 
-/// Upper bound on the discrepancy, computed in milliseconds, or longer for many points. For other
-/// families of boxes, `of_axis` and `of_all` are the largest ratios of their discrepancy to that of
-/// anchored boxes, for a single coordinate and for all together. Ignores stop requests.
+/// Upper bound on the discrepancy, computed in milliseconds, or longer for many points. Ignores
+/// stop requests. For another family of boxes, `of_axis` and `of_all` bound the ratio of its
+/// discrepancy to that of anchored boxes, for a single coordinate and for all of them.
 double quick_bound(const BoxGrid& grid, const RunContext& run, double of_axis = 1,
                    double of_all = 1);
 

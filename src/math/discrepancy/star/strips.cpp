@@ -28,8 +28,8 @@ template <class T, class Vector>
     std::memcpy(to, &vector, sizeof vector);
 }
 
-/// The braces in strips.hpp, lines of strips and of blocks, are w z - c with |w| <= 2 B, |c| <= B
-/// and 0 <= z <= 1. They are kept in single precision, in rows padded to whole vectors.
+/// The lines of strips and blocks, the braces in strips.hpp, are w z - c, |w| <= 2 B, |c| <= B and
+/// 0 <= z <= 1. They are stored in single precision, in rows padded to whole vectors.
 constexpr std::size_t lanes = sizeof(Floats) / sizeof(float);
 
 std::size_t padded(std::size_t size) { return (size + lanes - 1) / lanes * lanes; }
@@ -37,7 +37,7 @@ std::size_t padded(std::size_t size) { return (size + lanes - 1) / lanes * lanes
 /// Upper bound on the rounding error of a chord, in points.
 constexpr double margin = 0x1p-8;
 
-/// Number c of padding: such a line stays far below all others, even after points are added.
+/// Value of c for padding: its line stays far below all others, even after points are added.
 constexpr float no_line = 1e30F;
 
 /// Points in a group, divided by n^(1/3); found by trial.
@@ -165,7 +165,7 @@ class Sweep {
     };
 
     struct Line {
-        std::uint32_t index;  ///< in its strip or block
+        std::uint32_t index;  ///< of the line in its strip or block
         double height;
     };
 
@@ -229,7 +229,7 @@ class Sweep {
                        static_cast<float>(low), static_cast<float>(high));
     }
 
-    /// Bounds a block by a chord between two strips that have none of its points in between.
+    /// Bounds a block by a chord from strip `from` to `to`, without points of it in between.
     void bound_block(std::size_t u, std::size_t from, std::size_t to) {
         constexpr double parts = 4096;  // keeps heights exact multiples of 1 / parts
         const double low = strip_x(from);
@@ -328,8 +328,8 @@ class Sweep {
                 look_at(u, height_[u] - add - raised_[u]);
     }
 
-    /// Offers the boxes of the current strip and block u, given the number of points with r < a0
-    /// and t < j0 (open, negative) or t < j1 (closed).
+    /// Offers the boxes of the current strip and block u. `signed_points` is minus the number of
+    /// points with r < a0 and t < j0 (open), or the number with r < a0 and t < j1 (closed).
     void look_at(std::size_t u, double signed_points) {
         const auto y = static_cast<float>(y_[u]);
         const double best_a = strip_heights(y, y).low;

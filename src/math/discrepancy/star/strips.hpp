@@ -61,8 +61,8 @@ struct Plane {
     double widest = 0;                     ///< maximum width of a group
     std::vector<Dot> dots;                 ///< sorted by `first`
     std::vector<std::uint32_t> dots_from;  ///< first dot of each strip, then n
-    std::vector<std::uint32_t> next;       ///< by dot: next strip with a dot in its block, or last
-    std::vector<std::uint32_t> first;      ///< by block: first strip with a dot in it, or last
+    std::vector<std::uint32_t> next;   ///< by dot: next strip with a dot in its block, or the last
+    std::vector<std::uint32_t> first;  ///< by block: first strip with a dot in it, or the last
 };
 
 /// Builds the plane; it keeps a reference to the grid.
