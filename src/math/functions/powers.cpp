@@ -14,8 +14,9 @@ std::uint64_t saturating_power(std::uint64_t base, std::size_t exponent) {
 }
 
 std::uint64_t floor_root(std::uint64_t value, std::size_t exponent) {
+    if (exponent == 1) return value;
     std::uint64_t low = 1;
-    std::uint64_t high = exponent == 1 ? value : std::uint64_t{1} << 32;
+    std::uint64_t high = std::uint64_t{1} << 32;
     while (low < high) {
         const std::uint64_t middle = low + (high - low) / 2 + (high - low) % 2;
         // A saturated power exceeds every value, even the largest 64-bit number.

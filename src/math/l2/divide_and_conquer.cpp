@@ -492,9 +492,11 @@ Square square_of(const PointSet& points, Kind kind, const AxisWeights& weights,
     const Quad squared = total - 2 * means.value() / count + pairs / (count * count);
     const auto value = squared.convert_to<double>();
     // A pair takes about ten roundings, each by up to 2^-91 times its factors. The derivative of a
-    // product by a coordinate is at most four times the largest product.
+    // product by a coordinate is at most six times the largest product, and a rounded coordinate is
+    // off by 2^-64: 2/n times both in the means, and again in the pairs.
     const double most = most_of(axes);
-    const double moved = 0x1p-62 * most * static_cast<double>(rounded) / static_cast<double>(n);
+    const double moved =
+        24 * 0x1p-64 * most * static_cast<double>(rounded) / static_cast<double>(n);
     return {value, 0x1p-52 * std::abs(value) + 0x1p-85 * most + moved};
 }
 
