@@ -5,7 +5,7 @@
 //
 //     near_spanning_tree     every component takes the shortest edge to another, by a k-d tree
 //                            that skips points of the same component (Boruvka).
-//     plain_spanning_tree    a single component takes the nearest outside point, n times (Prim).
+//     plain_spanning_tree    one component takes the nearest outside point, n - 1 times (Prim).
 //
 // Shape   1 <= n < 2^32 points. `sides` are those of the torus, as for KdTree; empty for no torus.
 //         Duplicates are joined by edges of length 0.

@@ -16,7 +16,7 @@ double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 /// Distance of x from the interval [low, low + size].
 double gap(double x, double low, double size) { return std::max({low - x, x - (low + size), 0.0}); }
 
-/// True if b is not outside the line from a to next, up to rounding.
+/// Whether b is no corner of the hull: no left turn from a via b to next, up to rounding.
 bool is_hidden(const Vec2& a, const Vec2& b, const Vec2& next) {
     constexpr double ulps = 0x1p-50;
     const Vec2 to{b.x - a.x, b.y - a.y};
@@ -69,7 +69,7 @@ void VoronoiCell::cut(const Vec2& neighbor, double bound, std::uint32_t site) {
     }
     if (n == 0 || !(beyond_[most] > 0)) return;
 
-    // The corners to cut off are those from `first` to `last`, around the one farthest beyond.
+    // Cuts off the corners `first` to `last`: `most` and those next to it that are also beyond.
     const auto after = [n](std::size_t k) { return k + 1 < n ? k + 1 : 0; };
     const auto before = [n](std::size_t k) { return k > 0 ? k - 1 : n - 1; };
     std::size_t first = most;
@@ -125,9 +125,9 @@ void VoronoiCell::enclose(std::vector<CellCorner>& planes) {
     for (std::size_t k = 0; k < spare_.size(); ++k) {
         const Vec2& a = spare_[k > 0 ? k - 1 : spare_.size() - 1].at;
         const Vec2& b = spare_[k].at;
-        // The corner is placed exactly on the first plane, regardless of rounding along it.
+        // Rounding errors of `along` move the corner along the line of a's plane, not off it.
         const Vec2 to{b.x - a.x, b.y - a.y};
-        const bool alike = dot(to, to) < dot(b, b);  // then the difference is more precise
+        const bool alike = dot(to, to) < dot(b, b);  // cross(a, to) is then more precise
         const double along = -dot(a, to) / cross(a, alike ? to : b);
         const double squared = dot(a, a);
         corners_.push_back({{(a.x - along * a.y) / squared, (a.y + along * a.x) / squared},
@@ -262,7 +262,7 @@ void PeriodicVoronoi::gather_ring(const Site& site, std::int64_t ring, double sq
                                   VoronoiCell& cell) const {
     const std::int64_t column = column_of(site.at.x);
     const std::int64_t row = row_of(site.at.y);
-    // On the torus, copies more than one turn away are never nearest to a point of the cell.
+    // On the torus, copies more than one period away are never nearest to a point of the cell.
     const std::int64_t left = std::max(column - ring, torus_ ? column - columns_ : 0);
     const std::int64_t right = std::min(column + ring, torus_ ? column + columns_ : columns_ - 1);
     const std::int64_t bottom = std::max(row - ring, torus_ ? row - rows_ : 0);

@@ -13,15 +13,14 @@
 // So any number of threads can compute cells, and sites can be added, removed and moved. The
 // corners are the centres of empty circles through three sites: the Delaunay triangles.
 //
-// Shape   any number of sites from 1 on, in [0, side]^2; corners counterclockwise.
+// Shape   any number of sites from 1 on, in [0, sides]; corners counterclockwise.
 // Cost    about 1.3 us per cell for evenly spread sites; 26 bytes per site, 8 more with weights.
 // Promise the bits of a cell depend only on the sites and weights, not on their order in memory or
 //         on other cells. Of equal sites with equal weights the one with the lowest index has the
 //         cell, and the others have empty ones.
-// Beware  cells are cut independently: for four sites on a circle, a cell may have a neighbour
-//         whose cell lacks it, through an edge of the size of rounding errors (about 1e-16 of the
-//         rectangle). A site with a lower weight than others may be outside its cell, or have an
-//         empty one.
+// Beware  cells are cut independently. For four sites on a circle, rounding may give a cell a tiny
+//         edge (about 1e-16 of the rectangle) to a neighbour whose cell has no edge in return. A
+//         site with a lower weight than others may be outside its cell, or have an empty one.
 #pragma once
 
 #include <array>
@@ -46,8 +45,8 @@ struct CellCorner {
     static constexpr std::uint32_t wall = 0xffff'ffff;
 
     Vec2 at;        ///< relative to the cell's site
-    Vec2 neighbor;  ///< site beyond the edge, relative to the cell's; its mirror image for a wall
-    std::uint32_t site = wall;  ///< index of the neighbor; of the cell's site for a copy of it
+    Vec2 neighbor;  ///< site across the edge, relative to this one; this one mirrored, at a wall
+    std::uint32_t site = wall;  ///< index of that site, which its copies on the torus share
 };
 
 /// Moments of a cell's area, relative to its site.
@@ -66,7 +65,7 @@ class VoronoiCell {
     /// Squared distance of the farthest corner from the site.
     [[nodiscard]] double squared_reach() const { return squared_reach_; }
 
-    /// The farthest corner from the site; the first of several.
+    /// The corner farthest from the site; the first one if several are equally far.
     [[nodiscard]] Vec2 farthest_corner() const;
 
     [[nodiscard]] CellMoments moments() const;
@@ -128,8 +127,8 @@ class PeriodicVoronoi {
     /// Resets `cell` to the rectangle of site i at `at`, not yet cut by other sites.
     static void start(Vec2 sides, bool torus, Vec2 at, std::uint32_t i, VoronoiCell& cell);
 
-    /// Computes the cell of a site. Stops early if no corner has a squared distance of at least
-    /// `needed`. Thread-safe.
+    /// Computes the cell of a site. Stops early once the squared distance of every corner
+    /// from the site is below `needed`. Thread-safe.
     void cut_cell(std::size_t i, VoronoiCell& cell, double needed = 0) const;
 
     /// Moves `at` into [0, side) by whole sides on the torus; otherwise to the nearest wall.

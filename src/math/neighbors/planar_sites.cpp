@@ -65,7 +65,7 @@ void PlanarCells::cut_by_neighbors(std::size_t i, VoronoiCell& cell) const {
     const Vec2 at = sites_.at(i);
     PeriodicVoronoi::start(sites_.sides, sites_.torus, at, static_cast<std::uint32_t>(i), cell);
     std::vector<CellCorner> planes(cell.corners().begin(), cell.corners().end());
-    // For a site on a wall, the wall is treated as slightly beyond the site.
+    // A site on a wall is its own mirror image; this is moved outward to have a direction.
     constexpr std::array<Vec2, 4> outward = {Vec2{0, -1}, Vec2{1, 0}, Vec2{0, 1}, Vec2{-1, 0}};
     const double least = 1e-18 * (sites_.sides.x + sites_.sides.y);
     for (std::size_t k = 0; k < planes.size(); ++k)

@@ -26,7 +26,7 @@
 
 namespace stipple {
 
-/// Mean number of points in a point's grid cell up to which the grid is faster.
+/// Largest `occupancy` for which the grid is faster than the triangulation.
 constexpr double crowded_cell = 24;
 
 struct PlanarSites {
@@ -34,14 +34,14 @@ struct PlanarSites {
     bool torus;                           ///< opposite sides of the rectangle are joined
     std::vector<double> rows = {};        ///< x and y of each site, relative to the low corner
     std::vector<std::uint32_t> points{};  ///< lowest index of the points at each site
-    /// Mean number of points in a point's cell, in a grid with two points per cell on average.
+    /// Number of points in the cell of a point, mean over all points, for a grid of n / 2 cells.
     double occupancy = 0;
 
     [[nodiscard]] std::size_t count() const { return points.size(); }
     [[nodiscard]] Vec2 at(std::size_t i) const { return {rows[2 * i], rows[2 * i + 1]}; }
 };
 
-/// Finds the sites. @throws Error(cancelled)
+/// Finds the distinct positions of the points in `rows`. @throws Error(cancelled)
 PlanarSites planar_sites(std::span<const double> rows, const Box& box, bool torus,
                          const RunContext& run);
 
@@ -50,8 +50,8 @@ class PlanarCells {
     /// Keeps a reference to the sites. @throws Error(limit, cancelled)
     PlanarCells(const PlanarSites& sites, const RunContext& run);
 
-    /// Computes the i-th cell. Stops early if no corner has a squared distance of at least
-    /// `needed`. Thread-safe.
+    /// Computes the i-th cell. May stop early once the squared distance of every corner
+    /// from the site is below `needed`. Thread-safe.
     void cut(std::size_t i, VoronoiCell& cell, double needed = 0) const;
 
   private:
@@ -60,7 +60,7 @@ class PlanarCells {
     const PlanarSites& sites_;
     std::vector<Vec2> turns_;  ///< offsets of the copies of the rectangle
     std::optional<PeriodicVoronoi> grid_;
-    std::optional<Delaunay> triangles_;  ///< triangulation of all sites, then their copies
+    std::optional<Delaunay> triangles_;  ///< only for crowded points: the sites, then their copies
 };
 
 }  // namespace stipple

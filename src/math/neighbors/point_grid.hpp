@@ -107,7 +107,7 @@ class GridFrame {
     }
 
     /// Indices [from, to] of cells in direction k within sqrt(squared) of a position. On the torus
-    /// they may be outside [0, counts_[k]), but are never more than there are cells.
+    /// they may be outside [0, counts_[k]), but no cell appears twice.
     struct Window {
         std::int64_t from;
         std::int64_t to;
@@ -152,7 +152,7 @@ class GridFrame {
     bool torus_;
     Point low_{};
     Point sides_{};
-    Point scales_{};  ///< cells divided by side
+    Point scales_{};  ///< cells per unit of length
     Point slacks_{};  ///< bound on rounding errors of a position, in cells
     std::array<std::int64_t, D> counts_{};
     std::array<std::size_t, D> strides_{};
@@ -378,7 +378,7 @@ class GrowingPoints {
 
     Box box_;
     GridFrame<D> frame_;
-    std::vector<Bucket> buckets_;  ///< one per cell, then further ones of crowded cells
+    std::vector<Bucket> buckets_;  ///< the first bucket of each cell, then further ones
     std::vector<double> rows_;
     std::size_t filled_at_ = 0;  ///< number of points when the cells were last made
 };

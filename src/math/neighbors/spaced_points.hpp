@@ -32,7 +32,7 @@ double squared_distance(const double* p, const double* q, const std::array<doubl
 /// Number of cells along each direction of a box, with diagonals below `radius`; as doubles,
 /// because integers might overflow.
 inline std::vector<double> cells_along(const Box& box, double radius) {
-    constexpr double safety = 1 + 1e-9;  // exceeds rounding errors, but is negligible
+    constexpr double safety = 1 + 1e-9;  // makes up for rounding errors
     std::vector<double> cells;
     for (std::size_t k = 0; k < box.dimension(); ++k) {
         const double most = radius / std::sqrt(static_cast<double>(box.dimension()));

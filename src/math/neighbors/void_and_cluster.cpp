@@ -192,7 +192,7 @@ class Pattern {
                 }
     }
 
-    /// Updates the order of the cells changed by add().
+    /// Updates the order of all cells whose energy add(cell, ...) changed.
     void refresh(std::size_t cell) {
         for (const Piece& rows :
              wrapped(cell / width_, along_.before, along_.values.size(), height_))
@@ -237,7 +237,7 @@ void start(Pattern& pattern, std::size_t cells, std::size_t count, std::uint64_t
     }
     run.tick(0, 1);
     pattern.use_sigma(sigma, run);
-    // Every move lowers the energy, or the tie order at equal energy, so the loop ends.
+    // Every move lowers the total energy or, at equal energy, the tie number. So the loop ends.
     for (std::uint64_t moves = 1;; ++moves) {
         const std::size_t from = pattern.tightest_cluster();
         pattern.empty(from);

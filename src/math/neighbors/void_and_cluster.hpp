@@ -18,9 +18,9 @@
 // fixed sigma of the paper the last cells would not interact, and so the first ranks would be
 // random.
 //
-// Shape   W, H >= 1, W H < 2^31; cells from 1 : 100 to 100 : 1, beyond which sums could overflow.
+// Shape   W, H >= 1, W H < 2^31; sides of a cell from 1 : 100 to 100 : 1, or sums could overflow.
 // Cost    O(1) per cell, about 6 microseconds, and 45 bytes.
-// Promise energies are integers (multiples of 2^-38), so they do not drift, and the order is the
+// Promise energies are whole multiples of 2^-38, so they do not drift, and the order is the
 //         same on every machine. Ties are broken at random.
 // Source  R. Ulichney, "The void-and-cluster method for dither array generation", Proc. SPIE 1913
 //         (1993) 332-343, doi:10.1117/12.152707.

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t most_faces = 200'000;
 constexpr std::size_t most_facets = 500'000;
-constexpr std::size_t most_plane_tests = 400'000'000;  // comparisons; they take a second
+constexpr std::size_t most_plane_tests = 400'000'000;  // comparisons: about a second
 
 double dot(const PolytopePoint& a, const PolytopePoint& b, std::size_t d) {
     double sum = 0;
@@ -46,7 +46,7 @@ STIPPLE_WIDE [[gnu::flatten]] void roots(double* x, double m, std::size_t rows) 
 // errors are below 2^-52 everywhere (M. Rosenblatt, Annals of Mathematical Statistics 23 (1952)
 // 470-472, doi:10.1214/aoms/1177729394).
 
-/// Splits the next weight off each row's rest, and stores it in place of xi; 6 ns on one core.
+/// Splits the next weight off each row's rest, and stores it in place of xi; takes 6 ns per row.
 void break_off(double* xi, double* rest, std::size_t m, std::size_t rows) {
     if (m == 2) square_roots(xi, rows);
     if (m > 2) roots(xi, static_cast<double>(m), rows);
@@ -137,8 +137,8 @@ class FaceTree::Builder {
         return static_cast<std::uint32_t>(number);
     }
 
-    /// Describes a facet, with its volume in place of its share. The facet's space is spanned by
-    /// the apexes along the path through the heaviest facets, because these are far apart.
+    /// Describes a facet; `share` is set to its volume. The facet's space is spanned by the apexes
+    /// along the path through the heaviest facets, because these are far apart.
     Part part_of(std::size_t apex, std::uint32_t number) const {
         const std::size_t d = tree_.d_;
         std::vector<PolytopePoint> span;  // orthonormal directions from the facet's apex
@@ -209,7 +209,7 @@ FaceTree::FaceTree(const PolytopeVertices& polytope) : d_(polytope.dimension) {
     Builder(*this, polytope).build();
 }
 
-/// Selects the facet of a face for u in [0, 1); replaces u by its relative position in that share.
+/// Selects a facet of the face by u in [0, 1), and replaces u by (u - before) / share.
 const FaceTree::Facet& FaceTree::chosen(std::size_t face, double& u) const {
     const auto all = facets(face);
     std::size_t i = 0;
@@ -270,7 +270,7 @@ int FaceTree::side_of(const Path& path, double u) const {
     return 0;
 }
 
-/// Computes xi_1 of a path; if rounding moves it out of the simplex, the nearest value inside.
+/// Computes xi_1, the number that selects the path; corrects it if rounding changed the path.
 double FaceTree::number_of(const Path& path, double last) const {
     double u = last;
     for (std::size_t k = d_; k-- > 0;) u = path.facets[k]->before + u * path.facets[k]->share;
@@ -299,7 +299,7 @@ void FaceTree::inverse(const double* point, double* cube) const {
             double above = -rest * normal[d_];
             for (std::size_t j = 0; j < d_; ++j) above += normal[j] * left[j];
             normal += d_ + 1;
-            // Keeps rounding from selecting a facet next to the apex.
+            // Adding `rounding` avoids facets whose plane is almost through the apex.
             if (const double w = (above + rounding) / facet.height; w < least) {
                 least = w;
                 weight = above / facet.height;

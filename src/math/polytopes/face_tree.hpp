@@ -12,9 +12,9 @@
 //
 // Forward, xi_1 selects a facet at each face by its share of the volume, and its remainder is the
 // position along the last edge. xi_2 ... xi_d split off the weights of the apexes, one after
-// another, with small xi near the apex. Inverse: the ray from the apex through a point meets the
-// facet with the smallest ratio height(point) / height(apex) above it. That ratio is the weight of
-// the apex.
+// another, with small xi near the apex. Inverse: the ray from the apex through a point leaves
+// the face through the facet above which height(point) / height(apex) is smallest. That ratio is
+// the weight of the apex.
 //
 // Cost    forward about 20 ns per coordinate; inverse about 500 ns per point in 4 dimensions.
 // Source  C. W. Lee, "Subdivisions and triangulations of polytopes", Handbook of Discrete and
@@ -46,8 +46,8 @@ class FaceTree {
     /// Maximum number of rows in a call of forward().
     static constexpr std::size_t some_rows = 256;
 
-    /// Replaces cube coordinates by points, in place. @param columns by coordinate, each with
-    /// `rows` <= some_rows numbers
+    /// Replaces cube coordinates by points, in place. @param columns one per coordinate, with
+    /// `rows` <= some_rows numbers each
     void forward(std::span<double* const> columns, std::size_t rows) const;
 
     /// Maps a point of the polytope to the cube; points just outside by rounding count as inside.
@@ -58,7 +58,7 @@ class FaceTree {
   private:
     struct Facet {
         std::uint32_t face;
-        double before;  ///< fraction of the face's volume over the facets before this one
+        double before;  ///< sum of `share` over the facets before this one
         double share;
         double height;  ///< height of the apex above the facet
     };

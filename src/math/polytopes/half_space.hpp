@@ -9,7 +9,7 @@
 namespace stipple {
 
 struct HalfSpace {
-    std::vector<double> normal;  ///< if all are 0, every point is inside, or none if bound < 0
+    std::vector<double> normal;  ///< may be 0: all points are inside if bound >= 0, else none
     double bound = 0;
     std::string text = {};  ///< as written by the user, for messages
 };

@@ -20,7 +20,7 @@ bool joins(const HalfSpace& cut, std::size_t k) { return cut.normal[k] != 0; }
 /// Groups of coordinates that inequalities couple, directly or through others. Coordinates without
 /// an inequality are in no group.
 std::vector<std::vector<std::size_t>> joined(std::size_t d, const std::vector<HalfSpace>& cuts) {
-    std::vector<std::size_t> first(d);  // for each: smallest coordinate of its group
+    std::vector<std::size_t> first(d);  // for each coordinate, the smallest one of its group
     std::iota(first.begin(), first.end(), std::size_t{0});
     std::vector<bool> named(d);
     for (const HalfSpace& cut : cuts) {
@@ -45,7 +45,7 @@ std::vector<std::vector<std::size_t>> joined(std::size_t d, const std::vector<Ha
     return groups;
 }
 
-/// Minimum extent of a frame relative to its coordinates, so that rounding errors stay below the
+/// Minimum ratio of a frame's extent to its largest coordinate. It keeps rounding errors below the
 /// limit for flat polytopes.
 constexpr double finest = 1e-3;
 

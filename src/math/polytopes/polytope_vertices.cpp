@@ -10,7 +10,7 @@
 namespace stipple {
 namespace {
 
-constexpr double on_plane = 1e-13;  // rounding error of a half-space's slack
+constexpr double on_plane = 1e-13;  // a slack below it counts as 0
 constexpr double flat = 1e-11;
 constexpr std::size_t most_vertices = 10'000;
 constexpr std::size_t most_comparisons = 400'000'000;  // comparisons of vertices: about a second
@@ -48,7 +48,7 @@ struct Cut {
         length = std::sqrt(square);
     }
 
-    /// Distance of y from the plane times `length`; negative outside the half-space.
+    /// Distance of y from the plane, multiplied by `length`; negative outside the half-space.
     [[nodiscard]] DoubleDouble slack(const Precise& y, std::size_t d) const {
         DoubleDouble sum{bound};
         for (std::size_t k = 0; k < d; ++k) sum = sum - DoubleDouble{normal[k]} * y[k];
@@ -177,7 +177,7 @@ class DoubleDescription {
         return vertex;
     }
 
-    /// Indices of planes whose vertices are not all on another plane.
+    /// Indices of planes that contain a facet; if several contain the same facet, the first one.
     std::vector<std::size_t> facets() const {
         std::vector<std::size_t> vertices(planes_.size());
         // For each plane, the planes that contain all of its vertices.
@@ -200,7 +200,7 @@ class DoubleDescription {
     }
 
     std::size_t d_;
-    std::vector<Cut> planes_;  ///< first those of the cube
+    std::vector<Cut> planes_;  ///< those of the cube first
     std::vector<Vertex> vertices_;
     std::size_t comparisons_ = 0;
     std::string flat_;  ///< text of the inequality that left no volume

@@ -52,7 +52,7 @@ struct PolytopePlane {
 struct PolytopeVertices {
     std::size_t dimension;
     std::vector<PolytopePlane> planes;  ///< planes of the facets, each once
-    std::vector<PolytopeVertex> all;    ///< by decreasing number of planes, then by coordinates
+    std::vector<PolytopeVertex> all;    ///< those on most planes first, then by coordinates
 };
 
 /// Computes the vertices. @param cuts with nonzero normals; d <= most_polytope_dimensions
