@@ -63,8 +63,8 @@ class DensityMap {
     /// Applies place() to all rows (u, v) of `cube`; faster, since memory accesses overlap.
     void place_all(std::span<const double> cube, std::span<double> image) const;
 
-    /// Inverse of place(), from the closed unit square into itself. A point of an empty cell maps
-    /// to the common boundary of its neighbours.
+    /// Inverse of place(), from the closed unit square into itself. All x in an empty cell
+    /// give the same u, and all y in an empty row the same v.
     [[nodiscard]] std::array<double, 2> find(double x, double y) const;
 
   private:

@@ -43,7 +43,7 @@ DensityMoments::Place DensityMoments::place(std::int64_t column, std::int64_t ro
     Pixel left = line[there];
     const double x = static_cast<double>(there) * size_.x;
     if (there == column) return {left, x};
-    // Adds the integrals over periods m = 0, ..., turns - 1; x is shifted by m sides_.x in them.
+    // Adds the integrals over `turns` periods; in period m = 0, 1, ... x is larger by m sides_.x.
     const auto turns = static_cast<double>((column - there) / width_);
     const double shift = turns * sides_.x;
     const double squares = (turns - 1) * turns * (2 * turns - 1) / 6 * sides_.x * sides_.x;

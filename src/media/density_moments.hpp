@@ -60,7 +60,7 @@ class DensityMoments {
     std::int64_t height_;
     Vec2 sides_;
     Vec2 size_;                  ///< size of a pixel
-    std::vector<Pixel> pixels_;  ///< rows of width + 1 pixels; the last one of a row is its total
+    std::vector<Pixel> pixels_;  ///< width + 1 per row; the last one has the integrals of the row
 };
 
 }  // namespace stipple

@@ -110,7 +110,7 @@ class EarCutter {
         return true;
     }
 
-    /// Removes corner i. Returns the corner to test next; a neighbour of i would make slivers.
+    /// Removes corner i. Returns the second corner after it: an ear at the first would be a sliver.
     std::uint32_t take_off(std::uint32_t i) {
         const std::uint32_t a = before_[i];
         const std::uint32_t b = after_[i];

@@ -31,7 +31,7 @@ struct PlaneValues {
 /// Whether the bytes begin like a PFM picture.
 bool looks_like_pfm(std::string_view bytes);
 
-/// Returns the grey of each pixel, including NaN and, if a component is negative, a negative value.
+/// Returns the grey of each pixel; it is NaN or negative if a component of the colour is.
 /// @throws Error(input) "SOURCE: error" if the bytes are not a complete PFM picture; Error(limit)
 PlaneValues read_pfm(std::string_view bytes, const std::string& source, const RunContext& run);
 

@@ -174,7 +174,7 @@ PngPicture read_png(std::string_view bytes, const std::string& source, const Run
     if (channels % 2 == 0) picture.opacity.resize(pixels);
     for (std::size_t i = 0; i < pixels; ++i) {
         const std::uint16_t* s = &samples[i * channels];
-        // Integer weights, so that equal samples give exactly the grey of one sample.
+        // Integer weights: if red, green and blue are equal, the grey is exactly the same number.
         picture.grey[i] = channels < 3
                               ? s[0] / largest
                               : (2126. * s[0] + 7152. * s[1] + 722. * s[2]) / (10000 * largest);

@@ -73,7 +73,7 @@ class TokenFile {
     /// Checks that the line of the last token ends after it. @throws Error(input)
     void expect_line_end() const;
 
-    /// Skips the rest of the next token's line, up to a comment.
+    /// Skips all tokens on the line of the next token.
     void skip_line();
 
     /// Reports an error at a token. @throws Error(input) "FILE:LINE:COLUMN: what"
