@@ -29,7 +29,7 @@ std::string probability(double p) {
     return p < least_probability ? "p < 1e-16" : fmt::format("p = {}", rounded(p, 2));
 }
 
-/// Statistic of a test in words: of the whole test, or of the axis with the largest statistic.
+/// Statistic of a test in words: chi-squared or, for a test of each axis, the largest distance.
 std::string numbers_of_test(const Report& found) {
     if (const auto statistic = number_at(found, "statistic"))
         return fmt::format("χ² = {} with {} degrees of freedom, {}", rounded(*statistic),
@@ -117,7 +117,7 @@ std::span<const Key> compared_keys() {
 
 namespace {
 
-/// The number under a path of a measure's results, with its bounds; nullopt if there is none.
+/// The result under a path such as "value", with its bounds; nullopt if there is none.
 std::optional<Known> known_in(const Report* found, std::string_view path, bool magnitude) {
     if (found == nullptr) return std::nullopt;
     const auto lower = path == "value" ? number_at(*found, "lower") : std::nullopt;

@@ -17,7 +17,7 @@
 
 namespace stipple::page {
 
-inline constexpr std::size_t most_sets = 12;  ///< one for each colour of a set
+inline constexpr std::size_t most_sets = 12;  ///< limited by the number of distinct colours
 
 /// One measure of a set: its results, or the reason why there are none.
 struct Measure {
@@ -44,8 +44,7 @@ struct Set {
     std::string command = {};  ///< command that makes the points; empty if unknown
     std::vector<Measure> measures = {};
     std::vector<std::string> figures = {};  ///< pictures, as HTML
-    /// Results of further sets of the same kind, as from all_results(). If there are any, the
-    /// comparison uses means.
+    /// all_results() of further sets of the same kind. If there are any, the comparison uses means.
     std::vector<Report> replications = {};
 
     /// Results of the measure with this name; nullptr if there are none.
@@ -81,8 +80,8 @@ std::span<const Planned> planned_measures();
 /// The measure with this name; nullptr if there is none.
 const Planned* planned(std::string_view measure);
 
-/// A number in the comparison; `key` is MEASURE.RESULT. Errors are compared by magnitude; over
-/// several sets, by the root mean square.
+/// A number in the comparison; `key` is MEASURE.RESULT. If it is an error, its magnitude
+/// is compared or, for a set with replications, its root mean square.
 struct Key {
     std::string key;
     std::string_view label;

@@ -18,7 +18,7 @@ using plot::html_text;
 
 namespace {
 
-constexpr std::size_t most_values = 12;  ///< limit for values of a list that are written out
+constexpr std::size_t most_values = 12;  ///< longer lists are cut off after this many values
 
 /// A value in words: "2", "x > 1", "a, b, c".
 std::string words_of(const Json& value) {

@@ -20,7 +20,7 @@ std::vector<bool> log_axes(const PointSet& points);
 std::vector<std::string> units_of(const PointSet& points);
 
 /// Table of the parameters: names, units and possible values; followed by their constraints and
-/// correlations. Empty for other domains.
+/// correlations. Empty for domains without parameters.
 std::string parameter_table(const std::string& domain);
 
 }  // namespace stipple::page

@@ -203,7 +203,7 @@ std::vector<MarkedBox> worst_boxes(const Set& set) {
         const Report& found = *measure.results;
         const std::string kind = option_of(measure.options, "kind");
         if (const auto corner = list_at(found, "worst_box.corner")) {
-            // Measures of prefixes repeat the search in the whole set, which another measure shows.
+            // A measure of prefixes finds the box of the whole set again; `boxes` has it already.
             if (std::ranges::find(boxes, kind, &MarkedBox::kind) != boxes.end()) continue;
             MarkedBox box{.kind = kind, .high = *corner};
             box.low = list_at(found, "worst_box.lower_corner")

@@ -202,7 +202,7 @@ std::string comparison_of(std::span<const Set> sets) {
 
 // -------------------------------------------------------------------- one set
 
-constexpr std::size_t most_listed = 8;  ///< limit for numbers of a list in a table
+constexpr std::size_t most_listed = 8;  ///< tables leave out lists of more numbers
 
 std::string row_of(const Measure& measure, const std::string& key, std::size_t dimension) {
     const Report& results = *measure.results;

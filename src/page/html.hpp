@@ -18,7 +18,7 @@ std::string to_html(const Page& page);
 /// and NaN become null.
 std::string to_json(const Page& page);
 
-/// The text of page.css and page.js.
+/// The text of page.css; script() returns that of page.js.
 const char* style_sheet();
 const char* script();
 

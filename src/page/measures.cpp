@@ -18,8 +18,8 @@
 namespace stipple::page {
 namespace {
 
-/// Rejects measures that would compare too many pairs of points, except in dimensions with faster
-/// methods. @throws Error(limit)
+/// Rejects measures that would compare too many pairs of points; in few dimensions, none, since
+/// faster methods exist. @throws Error(limit)
 void need_few_pairs(const Planned& plan, const PointSet& points, std::int64_t work) {
     const auto& [above, steps] = plan.analyzer->pairs;
     const auto n = static_cast<double>(points.count());
@@ -33,7 +33,7 @@ void need_few_pairs(const Planned& plan, const PointSet& points, std::int64_t wo
 }
 
 /// Work limit of a search for a worst box, in comparisons. For many points, searches with
-/// non-default options get less work, since they end with their initial bounds anyway.
+/// non-default options get less work, since more would hardly improve their initial bounds.
 std::int64_t work_for(const Planned& plan, std::size_t count, std::int64_t work) {
     constexpr std::size_t many = 50'000;
     const bool usual = std::ranges::all_of(
@@ -41,7 +41,7 @@ std::int64_t work_for(const Planned& plan, std::size_t count, std::int64_t work)
     return !usual && count > many ? std::max<std::int64_t>(1, work / 8) : work;
 }
 
-/// 16, 32, 64, ..., count.
+/// Numbers of points of prefixes, as the value of an option: "16,32,64,...,COUNT".
 std::string prefixes_of(std::size_t count) {
     std::string text;
     for (std::size_t n = 16; n < count; n *= 2) text += fmt::format("{},", n);
@@ -137,7 +137,7 @@ Measure measured(const Planned& plan, const PointSet& points, const Cubed& cube,
 
 std::vector<Measure> measure_set(const PointSet& points, const Input& input, std::int64_t work,
                                  const RunContext& run) {
-    const RunContext mute = unwarned(run);  // the page shows bounds itself
+    const RunContext mute = unwarned(run);  // warnings would repeat bounds that the page shows
     const Cubed cube = cubed(points, input);
     const auto plans = planned_measures();
     std::vector<Measure> all;
