@@ -102,7 +102,7 @@ struct Sampler::State {
 
 namespace {
 
-/// Largest count that the generator accepts, at least `known`.
+/// Largest count that the generator accepts, by bisection. `known` is an accepted count.
 std::uint64_t largest_count(const Generator& generator, Request request, const Values& options,
                             std::uint64_t known) {
     const auto accepts = [&](std::uint64_t count) {
@@ -137,7 +137,7 @@ Sampler::Sampler(std::string_view text, const Request& request) try
         fail(ErrorKind::usage, "a Sampler gives points of the unit cube; leave out the bounds");
     const Values values = spec.values(generator.options);
     Request first = request;
-    if (!first.count && generator.traits.prefix) first.count = 1;  // so that any start is possible
+    if (!first.count && generator.traits.prefix) first.count = 1;  // the default may be too large
     state_->plan = plan_for(generator, first, values);
     const std::uint64_t count = state_->plan.count;
     state_->end =

@@ -27,8 +27,8 @@ std::size_t moved(std::size_t k, std::span<const std::size_t> from,
     return to[static_cast<std::size_t>(std::ranges::find(from, k) - from.begin())];
 }
 
-/// Returns the positions, in the output row, of the `size` numbers of an image that replaces the
-/// coordinates `taken`: `taken` if the sizes agree; else consecutive, from where taken[0] was.
+/// Returns the positions in the output row of an image of `size` numbers: `taken` if the sizes
+/// agree; otherwise consecutive, after the other coordinates below taken[0].
 std::vector<std::size_t> places(std::span<const std::size_t> taken, std::size_t size) {
     if (taken.size() == size) return {taken.begin(), taken.end()};
     const auto before =
@@ -351,7 +351,7 @@ std::vector<double> in_blocks(
     all.reserve(numbers);
     for (auto& part : parts) {
         all.insert(all.end(), part.begin(), part.end());
-        release(part);  // memory must not hold the points twice
+        release(part);  // so that memory never holds all points twice
     }
     return all;
 }
@@ -390,7 +390,7 @@ std::vector<std::string> WarpChain::names(std::vector<std::string> before, bool 
             after[back ? from : at] = std::move(before[back ? at : from]);
     for (const Step& step : steps_) {
         if (!step.mapping) continue;
-        const auto own = step.domain->names();  // a domain with names has the cube's dimension
+        const auto own = step.domain->names();  // if not empty, one for each cube coordinate
         for (std::size_t i = 0; i < own.size(); ++i)
             after[(back ? step.from : step.image)[i]] = own[i];
     }

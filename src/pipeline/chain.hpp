@@ -30,7 +30,7 @@ namespace stipple {
 /// Properties of a set of points on which its images depend.
 struct ChainSet {
     std::uint64_t seed = 1;
-    std::uint64_t count = 1;  ///< points of the whole set; 0: not known
+    std::uint64_t count = 1;  ///< number of points of the whole set; 0: not known
     /// Base of the digits of each coordinate, or one base for all; empty if all bases are 2.
     std::vector<std::uint32_t> bases = {};
     /// Range of each coordinate. Coordinates that no warp takes are scaled to it after the chain.
@@ -72,8 +72,8 @@ class WarpChain {
     /// images.
     [[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> kept() const;
 
-    /// Discrete outcomes (such as levels) of each input coordinate. An axis counts as continuous if
-    /// it has none, if they depend on other coordinates, or if a scramble precedes the warp.
+    /// Discrete outcomes (such as levels) of each input coordinate. A coordinate counts as
+    /// continuous if its outcomes depend on others, or if it is scrambled before the warp.
     [[nodiscard]] std::vector<OutcomeAxis> outcome_axes() const;
 
     /// Returns the names of the coordinates of the images or, with `back`, of the preimages.
@@ -88,7 +88,7 @@ class WarpChain {
     [[nodiscard]] std::vector<double> forward(std::vector<double> rows,
                                               std::uint64_t first = 0) const;
 
-    /// Returns the preimages of rows; the coordinates that warps take are in [0, 1).
+    /// Returns the preimages of rows. Their coordinates that warps take are in [0, 1).
     /// @throws Error(usage) if a step has no inverse; Error(input) for points outside the domain
     [[nodiscard]] std::vector<double> inverse(std::vector<double> rows) const;
 
@@ -159,7 +159,7 @@ class WarpChain {
     /// Input coordinate that each output coordinate was before scrambles; `none` if a warp made it.
     std::vector<std::size_t> from_;
     DomainPtr domain_;
-    mutable std::atomic<std::uint64_t> infinite_ = none;  ///< first infinite row, `none` or `told`
+    mutable std::atomic<std::uint64_t> infinite_ = none;  ///< row to warn of, `none` or `told`
     static constexpr std::uint64_t none = ~std::uint64_t{0};
     static constexpr std::uint64_t told = none - 1;
 };

@@ -140,8 +140,8 @@ bool may_be_biased(const std::string& step) {
     });
 }
 
-/// Assigns each step that may be biased to the factor of the domain that it made. Warns of a biased
-/// step without such a factor: later steps changed its points, or the step was an inverse.
+/// Gives each factor of the domain the mapping of the step that made it, if that may be biased.
+/// Warns of a biased step without a factor: later steps changed its points, or it was an inverse.
 std::vector<FactorLaw> factor_laws(std::span<const std::string> steps, const DomainPtr& domain,
                                    const RunContext& run) {
     std::vector<FactorLaw> laws;

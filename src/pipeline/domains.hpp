@@ -35,8 +35,8 @@ DomainPtr filled_up(std::vector<Factor> factors, std::size_t dimension);
 std::vector<Factor> warped_factors(const DomainPtr& domain,
                                    std::span<const std::size_t> boxless = {});
 
-/// Parses the factors of a domain, separated by " x ". A factor without named coordinates gets all
-/// `dimension` of them, whatever its own dimension. @throws Error(usage)
+/// Parses the factors of a domain, separated by " x ". A factor that names no coordinates gets all
+/// `dimension` coordinates, even if it has another dimension. @throws Error(usage)
 std::vector<Factor> parse_factors(std::string_view text, std::size_t dimension,
                                   const RunContext& run = {});
 

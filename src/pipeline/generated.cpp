@@ -30,7 +30,7 @@ bool given(const Values& options, const char* option) {
     return item != nullptr && item->given;
 }
 
-/// Whether the options extend a design whose file has points in the units of named parameters.
+/// Whether the options extend a design whose runs are in a file, in the units of the parameters.
 bool goes_on_from_runs(const Values& options, const WarpChain& chain) {
     return given(options, extend_option) && !chain.empty() && !chain.names().empty();
 }
@@ -147,7 +147,7 @@ void warn_of_absent_levels(std::span<const double> rows, const Generator& genera
         std::set<double> outcomes;
         for (std::size_t l = 0; l + 1 < ends.size(); ++l) outcomes.insert(axes[k].outcome(ends[l]));
         std::set<double> absent = outcomes;
-        bool known = true;  // false if the column has other numbers, such as those of the cube
+        bool known = true;  // false if the column has numbers that are no outcomes
         for (std::size_t at = k; at < rows.size() && known; at += axes.size()) {
             known = outcomes.contains(rows[at]);
             absent.erase(rows[at]);
@@ -238,7 +238,7 @@ std::pair<std::size_t, std::vector<std::size_t>> left_by_warps(const SetsToMake&
     return {d, std::move(left)};
 }
 
-/// @throws Error(usage) unless it is a box of finite size
+/// Checks bounds. @throws Error(usage) unless low < high, and every side is finite
 void require_box(const Box& box) {
     const std::size_t d = box.dimension();
     bool good = d > 0 && box.high.size() == d;

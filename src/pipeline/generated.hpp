@@ -100,7 +100,7 @@ class GeneratedSets {
 
   private:
     /// The warps and scrambles for one set.
-    /// @param made number of the set's points, if it differs from the plan's
+    /// @param made number of points before the warps, if it is not that of the plan
     [[nodiscard]] std::shared_ptr<const WarpChain> chain_for(
         std::uint64_t set, const RunContext& run, std::optional<std::uint64_t> made = {}) const;
     [[nodiscard]] std::shared_ptr<const WarpChain> make_chain(const ChainSet& set,
@@ -115,7 +115,7 @@ class GeneratedSets {
     struct Images {
         std::vector<double> rows;
         std::uint64_t made;  ///< points generated, including those without an image
-        std::uint64_t kept;  ///< of these, points with an image
+        std::uint64_t kept;  ///< number of generated points that have an image
     };
     /// Returns the requested number of images of a sequence's points. Points without an image are
     /// skipped; request.start counts only points that have one.

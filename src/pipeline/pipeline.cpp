@@ -122,7 +122,7 @@ void require_cube_domain(const PointSet& points, const Analyzer& analyzer) {
     if (!analyzer.traits.unit_cube || domain == "unit-cube" ||
         (domain.starts_with("box") &&
          points.domain->bounding_box() == unit_cube(points.dimension())->bounding_box()) ||
-        std::ranges::any_of(points.flat(), outside))  // reported later, with the first such point
+        std::ranges::any_of(points.flat(), outside))  // a later check reports the first such point
         return;
     fail_with_hint(ErrorKind::input,
                    way_to_cube(points) + "; --domain unit-cube takes them as they are",

@@ -122,7 +122,7 @@ class Producer {
     /// Makes one set in memory: generates and warps it, and cuts out the shard.
     [[nodiscard]] PointSet made(std::size_t set) const {
         RunContext run = part_of_run(run_, set, job_.sets);
-        if (job_.sets > 1) run.note = nullptr;  // notes on one set would hide the time left for all
+        if (job_.sets > 1) run.note = nullptr;  // notes on a set would hide the total time left
         run.keeps_best = job_.sets == 1 && target_.path != "-" && !target_.take;
         PointSet points = sets_.made(set, run);
         const auto [first, last] = part(points.count());

@@ -166,7 +166,7 @@ class MpiRanks : public Ranks {
     static constexpr int data_tag = 1;     // tag of bytes by give()
     static constexpr int failure_tag = 2;
 
-    /// Starts an MPI operation and waits until it has finished. After `eager` checks, sleeps
+    /// Starts an MPI operation and waits until it has finished. After many checks, sleeps
     /// between them, since other ranks may need the core.
     /// @throws the Error of another rank that failed, since it may never take part in the operation
     template <class Start>
@@ -248,7 +248,7 @@ class MpiRanks : public Ranks {
     std::string host_;
     std::mutex mpi_;              ///< held during each MPI call
     std::optional<Error> heard_;  ///< error that ended another rank
-    bool failed_ = false;         ///< the error was exchanged with the other ranks, which end, too
+    bool failed_ = false;         ///< all ranks know the error, and end
     std::list<Outgoing> outgoing_;
     // Buffers of exchange(), members because MPI may use them even after an error has ended the
     // call.

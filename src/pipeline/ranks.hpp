@@ -53,8 +53,8 @@ std::string mpi_version();
 
 /// Joins the group of processes that the MPI launcher started; in a build without MPI, the group is
 /// this process alone.
-/// @param stop after this request to stop, ranks exit without waiting for each other, since a
-/// launcher that terminates its ranks does not let them finish together
+/// @param stop once a stop is requested, the ranks exit without waiting for each other: a launcher
+/// that terminates them may already have ended some
 /// @param request_stop called when another rank fails, to end computations on this rank
 std::unique_ptr<Ranks> join_ranks(std::stop_token stop, std::function<void()> request_stop);
 

@@ -108,7 +108,7 @@ Comparison compared(const SetStream& stream, const Target& written, io::PointStr
     std::vector<double> more(file.dimension());
     for (std::size_t set = 0; set < stream.sets && result.mismatch.empty(); ++set) {
         const bool there = (unmarked && set > 0) || file.next_set();
-        // A file of one set may be the first of several files that were written together.
+        // A file with only the first set is no mismatch: the others may be in files of their own.
         if (!there && set > 1)
             result.mismatch =
                 fmt::format("it has {} sets; made again there are {}", set, stream.sets);

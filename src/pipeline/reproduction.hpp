@@ -21,7 +21,7 @@ using Making = std::function<void(const Target&)>;
 
 /// Combines a generation job with the later steps of the points' provenance, each of which was a
 /// separate run of the program: warps, inverses, scrambles with their seed, truncations.
-/// @param sets number of sets after all steps; implies how many copies of each a scramble made
+/// @param sets number of sets after all steps; determines the copies that a scramble made of each
 /// @throws Error(usage) for any other step
 Making made_again(SetsToMake job, const std::vector<std::string>& steps, std::uint64_t sets,
                   const RunContext& run);
@@ -37,7 +37,7 @@ struct Difference {
 
 struct Comparison {
     std::size_t sets = 0;
-    std::uint64_t points = 0;  ///< equal points in these sets
+    std::uint64_t points = 0;  ///< number of equal points in all compared sets
     std::optional<Difference> difference = {};
     std::string mismatch = {};  ///< message if there are more or fewer numbers, points or sets
     Provenance made = {};       ///< provenance of the reproduced points

@@ -143,7 +143,7 @@ void write_side_files(const std::vector<SideFile>& files, io::Outputs& outputs,
 
 /// Writes the sets [first, last). Returns false if the pipe was closed.
 /// @param open the first set, already open; replaced by the later ones
-/// @param part context of the first set
+/// @param part context of the first set, from part_of_run()
 bool write_points(const SetStream& stream, OpenSet& open, std::size_t first, std::size_t last,
                   const Layout& layout, const Target& target, io::Output& output,
                   const RunContext& run, RunContext part) {
@@ -173,7 +173,7 @@ bool write_file(const SetStream& stream, std::size_t first, std::size_t last,
     auto meta = meta_beside(layout, path, target, run);
     check_format(*target.format, layout);
     if (stream.one_at_a_time && last - first == 1 && was_interrupted(layout.provenance))
-        run = unstopped(run);  // to write the best result of a stopped search
+        run = unstopped(run);  // the search was stopped; writes its best result
     // Opens the first set early, so that its errors come before any output.
     const RunContext part = part_of_run(run, first, stream.sets).rising();
     OpenSet open = stream.open(first, part);

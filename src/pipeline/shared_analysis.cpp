@@ -25,7 +25,7 @@ struct Stretch {
 Stretch stretch_of(std::uint64_t count, std::uint64_t grain, const Peers& peers) {
     const std::uint64_t grains = (count + grain - 1) / grain;
     const auto size = static_cast<std::uint64_t>(peers.size());
-    // If the grains cannot be split evenly, the first ranks get one more: rank 0 always has some.
+    // The first ranks get one grain more if there is a remainder, so that rank 0 has points.
     const auto begin = [&](std::uint64_t rank) {
         return std::min(count, (grains / size * rank + std::min(rank, grains % size)) * grain);
     };

@@ -74,12 +74,12 @@ NextRows rows_of(const PointSet& points, std::uint64_t first) {
 
 bool in_batches(const NextRows& next, std::size_t batch, std::size_t width, const RunContext& run,
                 const std::function<bool(std::span<const double>)>& take) {
-    constexpr std::size_t few = 65536;  // numbers made before a thread would have started
+    constexpr std::size_t few = 65536;  // fewer numbers are not worth starting a thread
     std::vector<double> rows(batch * width);
     std::vector<double> ahead(rows.size());
     const auto policy = run.thread_count() > 1 && rows.size() > few
                             ? std::launch::async | std::launch::deferred
-                            : std::launch::deferred;  // always allowed: threads may run out
+                            : std::launch::deferred;  // always allowed, in case no thread can start
     for (std::size_t count = next(rows); count > 0; rows.swap(ahead)) {
         run.check_stop();
         auto fetched = std::async(policy, [&] { return next(ahead); });

@@ -34,7 +34,7 @@ bool in_batches(const NextRows& next, std::size_t batch, std::size_t width, cons
 /// A set whose rows are about to be read.
 struct OpenSet {
     NextRows next;
-    std::uint64_t count = 0;                 ///< points; 0 if known only at the end
+    std::uint64_t count = 0;                 ///< number of points; 0 if known only at the end
     std::span<const double> densities = {};  ///< densities stored with the points; may be empty
     std::vector<SideFile> side_files = {};   ///< files written with the points
 };
@@ -42,7 +42,7 @@ struct OpenSet {
 /// Metadata of the sets of one file, available before their rows.
 struct SetsHead {
     Provenance provenance;
-    Counts counts = {};              ///< points of each set; 0 if known only at the end
+    Counts counts = {};              ///< numbers of points of the sets; 0 if known only at the end
     std::optional<Box> extent = {};  ///< area that a picture must show; nullopt: the domain
 };
 
@@ -58,7 +58,7 @@ struct SetStream {
     std::function<std::uint64_t(std::size_t set)> seed = {};  ///< seed of a set, for file names
     bool one_at_a_time = false;  ///< memory holds one set, replaced by head() and open()
     bool side_files = false;     ///< some sets have side files
-    bool starts = false;         ///< a set's first point can be skipped by --start
+    bool starts = false;         ///< --start can leave out the first points of a set
 
     /// Coordinates per point.
     [[nodiscard]] std::size_t dimension() const { return domain->dimension(); }

@@ -36,12 +36,11 @@ DomainPtr read_parameters(const std::string& path, const RunContext& run = {});
 /// The same warp, but with images in the unit cube.
 Spec in_unit_cube(Spec parameters);
 
-/// Warning that prefixes of the points differ from sets of fewer points. Empty if they do not, and
-/// if the generator is unknown.
+/// Warning that prefixes of the points differ from sets of fewer points; empty if they do not,
+/// or if the generator is unknown.
 std::string unlike_prefixes(const Provenance& made);
 
-/// Sets the field that a provenance read from a file lacks: `independent`, from its generator's
-/// traits.
+/// Sets `independent`, which files do not store, from the traits of the provenance's generator.
 void complete(Provenance& provenance);
 
 /// A generator with its options and its own warps, as one text:

@@ -39,7 +39,7 @@ void record_warp(PointSet& set, const WarpChain& chain, bool inverse,
     meta.warps.push_back(warp);
 }
 
-/// The mapping of a warp of the coordinates that `spec` names or, without any, of `dimension` ones.
+/// The mapping of a warp, for as many coordinates as `spec` names, or `dimension` if it names none.
 auto mapping_of(const Spec& spec, std::size_t dimension, const RunContext& run) {
     const Warp& warp = find_warp(spec.name);
     const std::size_t given = spec.coordinates.empty() ? dimension : spec.coordinates.size();
@@ -118,8 +118,8 @@ struct Warping {
                      join(gather(row, d, taken), ", "));
     }
 
-    /// Sets `stretch` to the warp alone, without the domains of other coordinates.
-    /// @throws Error(input) if the change of the densities is not known
+    /// Sets `stretch`, which changes densities: the warp without the domains of other coordinates.
+    /// @throws Error(input) if the change is not known: the warp drops or reorders points
     void find_stretch(const Spec& spec, const ChainSet& set, const RunContext& run) {
         if (!inverse && (chain->traits().drops || chain->traits().needs_whole_set))
             fail_with_hint(ErrorKind::input,
@@ -133,8 +133,8 @@ struct Warping {
                                                                chain->dimension_in(), set, run);
     }
 
-    /// Densities at the mapped points if the points have densities p: p / |J|, or p |J| for the
-    /// inverse map.
+    /// Densities at the mapped points if the points have densities p: p / |J| or, for the inverse
+    /// map, p |J|, where J is the Jacobian determinant of the warp.
     [[nodiscard]] std::vector<double> densities(const PointSet& from, const PointSet& to) const {
         auto factors = stretch->density((inverse ? from : to).flat());
         for (std::size_t i = 0; i < factors.size(); ++i)
@@ -170,7 +170,7 @@ NextRows warped_rows(io::PointStream& stream, const Warping& warping, std::size_
             came = std::uint64_t{0},
             kept = std::uint64_t{0}](std::span<double> rows) mutable -> std::size_t {
         const std::size_t d = stream.dimension();
-        for (;;) {  // until a batch has an image
+        for (;;) {  // until a batch has points with an image
             taken.resize(rows.size() / wide * d);
             const std::size_t count = stream.read(taken);
             if (count == 0) break;
@@ -297,7 +297,7 @@ void write_density_at(const Unwarped& at, const Spec& warp, Target target, const
     const DomainPtr& on = at.domain();
     const std::size_t d = dimension_before(warp, on->dimension(), run);
     auto chain = std::make_unique<WarpChain>(std::span(&warp, 1), d, ChainSet{}, run);
-    // Coordinates that the warp does not make keep their domains.
+    // Coordinates that are not part of the warp's images keep their domains.
     auto others = warped_factors(domain_before(*chain, on), named_or_all(warp, d));
     if (!others.empty())
         chain =
