@@ -21,7 +21,7 @@ constexpr double swatch = 22;
 constexpr std::size_t most_entries = 12;  ///< limit for the entries of a legend
 constexpr double least_panels = 60;       ///< smallest total height of the panels, in units
 
-/// Range of values on an axis, which grows with the values taken.
+/// Range of an axis. take() extends it to include further values.
 struct Span {
     bool log = false;
     double low = std::numeric_limits<double>::infinity();
@@ -94,7 +94,7 @@ Axis x_axis(std::span<const ChartPanel> panels, const PictureStyle& style) {
     // An axis that would begin close to zero begins at zero.
     const bool near_zero = !span.log && span.low > 0 && span.low < 0.04 * span.high;
     if (near_zero) axis.low = 0;
-    constexpr double share = 0.02;  // space for marks at the ends, as a fraction
+    constexpr double share = 0.02;  // fraction of the axis added at each end, for marks
     if (!style.tight && marked(panels) && span.low < span.high)
         widen(axis, share, near_zero && span.low > share * span.high);
     return axis;
@@ -312,7 +312,7 @@ void draw_columns(Drawing& drawing, const Panel& panel, const ChartPanel& conten
 
 void draw_rug(Drawing& drawing, const Panel& panel, const std::vector<double>& values,
               Colour colour) {
-    constexpr std::size_t most = 4000;  // more marks are indistinguishable
+    constexpr std::size_t most = 4000;  // more marks, indistinguishable, are not drawn
     if (values.size() > most) return;
     for (const double value : values) {
         const double x = panel.x(value);
@@ -322,7 +322,7 @@ void draw_rug(Drawing& drawing, const Panel& panel, const std::vector<double>& v
     }
 }
 
-/// Draws all curves, each in the SVG group of its set.
+/// Calls draw(series, colour) for all series, each in the SVG group of its set.
 template <class Draw>
 void for_each_series(Drawing& drawing, const ChartPanel& content, const Draw& draw) {
     for (std::size_t i = 0; i < content.series.size(); ++i) {
@@ -454,7 +454,7 @@ void name_slope(Series& series) {
         return residual * residual;
     });
     const double error = size < 3 ? 0 : std::sqrt(rest / (m - 2) / spread);
-    const bool fine = error < 0.005 && error >= 5e-5;  // the error needs more than two digits
+    const bool fine = error < 0.005 && error >= 5e-5;  // too small for two digits after the point
     const int digits = fine ? static_cast<int>(-std::floor(std::log10(error))) : 2;
     const std::string deviation = size < 3 ? "" : " ± " + printed(error, digits);
     series.name += fmt::format(" (slope {}{})", printed(slope, digits), deviation);
@@ -511,7 +511,7 @@ SquareDrawing square_drawing(TitledDrawing titled, const std::vector<LegendEntry
     double below = 0;
     double wide = 500;
     double side = wide;
-    for (int rounds = 0; rounds < 3; ++rounds) {  // names have more lines along shorter sides
+    for (int rounds = 0; rounds < 3; ++rounds) {  // side and wrapped names affect each other
         left = std::max(left, std::ceil(picture_margin / 2 +
                                         Panel::room_left(y, std::clamp(side, least, 500.0))));
         below =

@@ -74,7 +74,7 @@ struct ChartPanel {
     std::vector<double> rug = {};  ///< values marked by short lines at the bottom
     bool log_x = false;
     bool log_y = false;
-    std::size_t values = 0;    ///< number of a histogram's values, those off the axis included
+    std::size_t values = 0;    ///< number of values in a histogram, with those off the axis
     std::size_t off_axis = 0;  ///< number of values of 0 or less
     bool whole_x = false;
     bool from_zero = false;  ///< whether the y axis starts at 0

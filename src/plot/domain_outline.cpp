@@ -138,7 +138,7 @@ class Tracer {
     [[nodiscard]] std::optional<Position> boundary_beside(Position middle, Position from,
                                                           Position to) const {
         const bool middle_inside = inside(middle);
-        const double turn = middle_inside ? 1 : -1;  // the inside is on the left
+        const double turn = middle_inside ? 1 : -1;  // the inside is left of the segment
         const Position far{middle.x + turn * (to.y - from.y), middle.y - turn * (to.x - from.x)};
         if (inside(far) == middle_inside) return std::nullopt;
         return middle_inside ? boundary_between(middle, far) : boundary_between(far, middle);

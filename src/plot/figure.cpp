@@ -42,7 +42,7 @@ using Draw = std::function<Drawing(const PictureStyle&)>;
 
 constexpr double least_scale = 0.5;  // smallest scale with legible letters
 
-/// A drawing in a style, and whether it has the style's size and its texts are inside.
+/// A drawing in a style. `fits`: it has the style's size and all texts are inside.
 struct Trial {
     Drawing drawing;
     bool fits;
@@ -196,7 +196,7 @@ Drawing sheet_of(std::span<const Frame> frames, PictureStyle style) {
     titles.letter.reset();
     auto [drawing, top] = titled_drawing("", "", titles, places.usual_width());
     if (untitled) top = 0;
-    if (!style.title || !untitled) style.title.reset();  // an empty title hides those of frames
+    if (!style.title || !untitled) style.title.reset();  // the title "" hides those of frames
     const double width =
         std::max(std::floor((drawing.width - places.more) / places.across), least_width);
     if (style.height > 0)

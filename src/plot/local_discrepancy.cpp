@@ -63,7 +63,7 @@ PixelImage image_of_discrepancy(const Grid& grid, const Area& area, double large
 
 /// Draws points as small disks, except if they would cover much of the image.
 void draw_dots(Drawing& drawing, const PointSet& points, const Panel& panel, const Theme& theme) {
-    constexpr double least = 4;  // minimum distance in units, if the points were on a grid
+    constexpr double least = 4;  // minimum distance of as many points on a grid, in units
     const double apart = panel.frame().width / std::sqrt(static_cast<double>(points.count()));
     if (apart < least) return;
     Disks dots{.radius = std::clamp(0.05 * apart, 0.6, 2.0), .colour = theme.ink};

@@ -86,7 +86,7 @@ bool frame_is_outline(const PointsPicture& picture) {
         picture.sets, [](const PointSet* set) { return is_box(*set) && !without_domain(*set); });
 }
 
-/// Fraction of its bounding box that a plane domain fills; 1 if unknown.
+/// Fraction of its bounding box that a plane domain fills; 1 if unknown, or if below 2 %.
 double share_of_box(const PointSet& set) {
     if (set.dimension() != 2 || without_domain(set)) return 1;
     const double share = set.domain->measure() / volume_of(set.domain->bounding_box());
@@ -202,7 +202,7 @@ class PointMarks {
         const Area& a = raster.area;
         const auto columns = static_cast<double>(raster.columns);
         const auto rows = static_cast<double>(raster.rows);
-        constexpr double slack = 1e-9;  // bins hold left and lower edges; positions are rounded
+        constexpr double slack = 1e-9;  // keeps points on a lower edge in their bin
         for (std::size_t i = 0; i < set.count(); ++i) {
             if (i % patience == 0) run_.tick(i, set.count());
             const Position position = place(set[i]);
@@ -670,8 +670,8 @@ std::size_t bins_of(std::size_t n) {
         static_cast<std::size_t>(std::ceil(2 * std::cbrt(static_cast<double>(n)))), 5, 200);
 }
 
-/// Whether a coordinate has whole numbers as outcomes: all are whole, and the domain is unknown or
-/// its cube coordinates do not preserve probability.
+/// Whether a coordinate counts as whole numbers: all values are whole, and the domain is unknown or
+/// not even(), as for discrete distributions.
 bool is_whole(const PointsPicture& picture, std::size_t k) {
     const PointSet& first = *picture.sets[0];
     if (first.domain->even() && !without_domain(first)) return false;

@@ -23,7 +23,7 @@
 namespace stipple::plot {
 
 inline constexpr std::size_t most_pair_coordinates = 8;
-inline constexpr double density_share = 0.75;  ///< points per square unit that need a density
+inline constexpr double density_share = 0.75;  ///< minimum points per square unit for a density
 
 /// Limit for the ratio of a box's sides. Beyond it, coordinates are assumed to have different units
 /// and are scaled separately.
@@ -49,7 +49,7 @@ struct MarkedCircle {
 };
 
 struct PointsPicture {
-    std::vector<const PointSet*> sets;  ///< of one dimension, none empty; at least one set
+    std::vector<const PointSet*> sets;  ///< at least one; equal dimensions, none empty
     std::vector<std::string> names;     ///< names of the sets, for the legend
     std::string title = {};
     std::string subtitle = {};
@@ -94,7 +94,7 @@ Axis shown_axis(const PointsPicture& picture, const Box& box, std::size_t k);
 /// if that is beyond most_unlike or an axis is logarithmic.
 double picture_ratio(const PointsPicture& picture, const Box& box);
 
-/// Whether the picture shows a view in space.
+/// Whether the picture is a parallel projection of points with three coordinates.
 bool is_space(const PointsPicture& picture);
 
 /// A three-dimensional point in a picture's parallel projection. The unit is the box's longest

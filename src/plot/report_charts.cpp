@@ -25,7 +25,7 @@ using Curve = Report::Curve;
 using Measurements = std::span<const Measurement>;
 
 constexpr double log_above = 12;    ///< radial power with higher peaks gets a logarithmic axis
-constexpr double log_floor = 1e-4;  ///< lower end of this axis: smaller values are rounding errors
+constexpr double log_floor = 1e-4;  ///< lowest power on a logarithmic axis; less is rounding error
 
 std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
@@ -49,7 +49,7 @@ std::vector<std::string> names_of_inputs(Measurements ms) {
     return names;
 }
 
-/// Whether a property, a member or a function, has the same value for all measurements.
+/// Whether all measurements have the same value of `property`, a member or a function of them.
 template <class Property>
 bool alike(Measurements ms, const Property& property) {
     return std::ranges::all_of(ms, [&](const Measurement& m) {
@@ -178,8 +178,8 @@ bool holds(const Report& report, std::string_view key) {
     return flag != nullptr && *flag;
 }
 
-/// Effective Nyquist frequency of a single measurement, and its oscillation if enough frequencies
-/// were measured to compare it.
+/// Effective Nyquist frequency and oscillation of a single measurement; without the oscillation if
+/// too few frequencies were measured for it.
 std::string summary_of_spectrum(Measurements ms) {
     if (ms.size() > 1) return {};
     std::string text;
@@ -282,7 +282,7 @@ void make_bars(ChartPanel& panel) {
     panel.log_x = panel.log_y = false;
 }
 
-/// "radius", with a unit if it is normalized.
+/// Name of the x axis, such as "radius"; with the unit if it is normalized.
 std::string abscissa_of(const Measurement& m, const CurveKey& curve) {
     if (!curve.over_title.empty()) return std::string(curve.over_title);
     const std::string x(last_part(curve.over));
@@ -302,8 +302,8 @@ void make_power(ChartPanel& panel, Measurements ms, const CurveKey& curve) {
     panel.log_y = top > log_above;
 }
 
-/// Sets up the panel of pair correlation. A single measurement gets a band of two standard
-/// deviations: those of the mean over as many sets of uniform points.
+/// Sets up the panel of pair correlation. A single measurement gets a band: two standard
+/// deviations of the mean over as many sets of uniform points.
 void make_pair_correlation(ChartPanel& panel, Measurements ms, const CurveKey& curve) {
     panel.y_name = "pair correlation g";
     panel.guides = {{.name = ms.size() > 1 ? "uniform points" : "", .y = {1}}};
@@ -562,7 +562,7 @@ Chart number_histogram(Measurements ms, const std::string& key, bool log) {
     const std::size_t sets = values.size();
     double size = 0;
     for (const double value : values) size = std::max(size, std::abs(value));
-    // Numbers that an axis would show as 0 are scaled.
+    // Numbers that an axis would show as 0 are multiplied by 10^300.
     if (size > 0 && size < least_shown) {
         for (double& value : values) value /= least_shown;
         panel.x_name += fmt::format(" (×{})", power_of_ten(-300));

@@ -66,7 +66,7 @@ const std::vector<Glyph>& glyphs() {
             if (line.empty()) continue;
             const Letter letter = first_letter(line);
             std::istringstream rest{std::string(line.substr(letter.size))};
-            rest.exceptions(std::ios::badbit);  // throws if out of memory
+            rest.exceptions(std::ios::badbit);  // otherwise a failed allocation would be hidden
             Glyph glyph{.letter = letter.point};
             rest >> glyph.advance >> std::ws;
             std::getline(rest, glyph.path);

@@ -133,7 +133,7 @@ Ticks Axis::ticks(double length, bool upright) const {
 
 double Axis::share(double value) const {
     if (!log) return (value - low) / (high - low);
-    const auto up_from_low = [this](double x) {  // the quotient preserves small differences
+    const auto up_from_low = [this](double x) {  // log(x / low) resolves small differences
         const double ratio = x / low;
         return std::isfinite(ratio) ? std::log(ratio) : std::log(x) - std::log(low);
     };

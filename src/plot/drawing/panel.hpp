@@ -57,7 +57,7 @@ class Panel {
     /// Draws the frame with numbers and names; if `closed`, on all four sides.
     void draw_axes(Drawing& drawing, const Theme& theme, bool closed) const;
 
-    /// Space for numbers and name beside a frame of this height, or below a frame of this width.
+    /// Space for the numbers and the name of a vertical axis; room_below(): of a horizontal one.
     static double room_left(const Axis& y, double height);
     static double room_below(const Axis& x, double width);
 

@@ -164,7 +164,7 @@ std::string font_of(const std::vector<Table>& tables) {
     const int count = static_cast<int>(tables.size());
     std::string out;
     put_number(out, 0x00010000, 4);
-    put_words(out, {count, 64, 2, 16 * count - 64});  // search range, right for 4 to 7 tables
+    put_words(out, {count, 64, 2, 16 * count - 64});  // with the search range for 4 to 7 tables
     auto offset = static_cast<std::int64_t>(12 + 16 * tables.size());
     for (const auto& [name, bytes] : tables) {
         out += name;

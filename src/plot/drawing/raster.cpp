@@ -89,7 +89,7 @@ class Rasterizer {
             stroke(line.vertices, line.width * scale_);
         } else {
             const bool dashed = line.dash == Dash::dashed;
-            // Dashes are shorter here, since their round ends lengthen them by the line's width.
+            // Dashes are drawn shorter, since their round ends add the line's width.
             const double on = dashed ? std::max(6 - line.width, 1.0) : 0.5;
             for (const auto& dash : dashes_of(line.vertices, on, (dashed ? 10.0 : 4.5) - on))
                 stroke(dash, line.width * scale_);
@@ -204,7 +204,7 @@ class Rasterizer {
         const Position a{from.x * scale_, from.y * scale_};
         const Position b{to.x * scale_, to.y * scale_};
         const double reach = wide / 2 + 0.5;
-        // A line thinner than a pixel covers only a fraction of it, its width.
+        // A line thinner than a pixel covers at most the fraction `wide` of one.
         const double most = std::min(1.0, wide);
         const Pixels area = visible({pixel(std::floor(std::min(a.x, b.x) - reach)),
                                      pixel(std::floor(std::min(a.y, b.y) - reach)),

@@ -34,7 +34,7 @@ double ten_to(int exponent) {
     return exponent >= 0 ? std::pow(10.0, exponent) : 1 / std::pow(10.0, -exponent);
 }
 
-/// A step of 1, 2 or 5 times a power of ten; `number` counts such steps in ascending order.
+/// A step of 1, 2 or 5 times a power of ten, by its number: 0 is 1, 1 is 2, 2 is 5, 3 is 10.
 struct Step {
     int number;
     [[nodiscard]] int exponent() const { return static_cast<int>(std::floor(number / 3.0)); }
