@@ -2,13 +2,13 @@
 //
 // Charts of analyzers' reports: one curve per measurement, with a common legend.
 //
-//     curves of the analyzer's record   over their abscissas: radial power with the band of white
-//                                       noise, numbers over counts on logarithmic axes
-//     results keyed by one or two       bars with intervals: sensitivity indices of inputs and of
-//     names                             pairs of inputs
+//     the reports have curves           the curves, such as radial power with the band of white
+//                                       noise, or numbers over counts on logarithmic axes
+//     results have one or two names     bars with intervals, such as sensitivity indices of inputs
+//     as keys                           and of pairs of inputs
 //     several reports without curves    one result against the number of points. Files whose names
 //                                       differ only in digits form one curve; sets of equal size
-//                                       are averaged. A histogram if all sets have one size
+//                                       are averaged. If all sets have one size: a histogram
 //
 // Bands around a curve are standard errors of a mean, or lower and upper bounds.
 //

@@ -14,7 +14,7 @@
 namespace stipple::plot {
 namespace {
 
-constexpr std::size_t least_side = 9;  ///< a smaller table is more likely to hold points
+constexpr std::size_t least_side = 9;  ///< smaller tables are taken for points
 
 /// Whether the middle number can be the power at frequency zero, (sum of w)^2 / (sum of w^2) for
 /// weights w: at least 1, and the largest power. Power 1 is allowed only if all powers are 1, as
@@ -40,8 +40,8 @@ bool is_symmetric(std::span<const double> v) {
 
 bool is_spectrum(std::span<const double> v) { return is_symmetric(v) && is_power(v); }
 
-/// Concatenates square planes that form a cube; empty unless there are as many planes as each has
-/// rows and columns.
+/// Concatenates n planes of n x n numbers, each given as a set, into a cube; empty if any set has
+/// another size.
 std::vector<double> cube_of(std::span<const PointSet* const> sets) {
     std::vector<double> values;
     for (const PointSet* plane : sets) {
@@ -93,7 +93,7 @@ std::optional<SpectralTable> spectral_table(std::span<const PointSet* const> set
         !is_symmetric(first.flat()))
         return std::nullopt;
     Grid grid = grid_of(first, first.count());
-    // Densities of pair differences are 0 at the zero difference.
+    // A table of pair differences is 0 in the middle, a power spectrum is not.
     const bool differences =
         grid.values[grid.values.size() / 2] == 0 && std::ranges::max(grid.values) > 0;
     if (!differences && !is_power(grid.values)) return std::nullopt;

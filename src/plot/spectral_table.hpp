@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// Recognizes tables saved by `periodogram --grid` and `differential --grid` among sets read as
-// points, since their NPY files are not marked: not negative, an odd side of at least 9, and
-// symmetric in f and -f.
+// Recognizes tables saved by `periodogram --grid` and `differential --grid`, although their NPY
+// files look like points: their sides have the same odd length m >= 9, and their values are not
+// negative, and equal at f and -f.
 //
 //     (m)        power of a set on the line
 //     (m, m)     power in the plane; differences of pairs if the middle is 0, since distinct points
 //                do not differ by 0, whereas the power at frequency 0 is n
 //     (m, m, m)  power in space
 //
-// In the plane they are drawn as pictures with frequency zero in the middle:
+// Tables of the plane are drawn as pictures with frequency zero in the middle:
 //
 //     grey = P / (1 + P)
 //
@@ -30,7 +30,7 @@ namespace stipple::plot {
 struct SpectralTable {
     std::size_t dimension = 2;
     bool differences = false;
-    Grid values;  ///< for d = 1 a single row; for d = 3 the plane fz = 0
+    Grid values;  ///< one row if dimension is 1; the plane of frequencies fz = 0 if it is 3
 };
 
 /// Interprets the sets of one file as a spectral table; nullopt if they are ordinary points.
@@ -50,7 +50,7 @@ struct TableNames {
 Drawing draw_spectrum(const Grid& power, const std::string& title, const std::string& subtitle,
                       const PictureStyle& style, const TableNames& names = {});
 
-/// Chart of the power at the frequencies 1 to F, from a table with one row.
+/// Chart of the power at positive frequencies, from a table with one row.
 Chart power_chart(const Grid& power, const std::string& title);
 
 }  // namespace stipple::plot

@@ -56,14 +56,14 @@ std::vector<std::string> distinct(std::span<const MeanRow> means, const Text& te
 
 std::string unit_of(const Topic& topic) { return topic.measure.substr(0, topic.measure.find(':')); }
 
-/// The key in words, "cube error"; for the key "value", the name of the measure's analyzer.
+/// Key of a topic in words, such as "cube error"; for the key "value", the analyzer's name.
 std::string key_of(const Topic& topic) {
     std::string_view key = topic.key;
     if (last_part(key) == "value") key.remove_suffix(std::min<std::size_t>(6, key.size()));
     return words_of(key.empty() ? unit_of(topic) : std::string(key));
 }
 
-/// "centered (l2 discrepancy), d = 2": the key, and the properties in which the topics differ.
+/// Name of a topic: key, and what differs between the topics: "centered (l2 discrepancy), d = 2".
 std::string name_of(const Topic& topic, std::span<const Topic> all) {
     const auto differ = [&](const auto& property) {
         return std::ranges::any_of(
@@ -81,8 +81,8 @@ std::string name_of(const Topic& topic, std::span<const Topic> all) {
     return name;
 }
 
-/// The topics whose key is `key`; if there are none, those whose key has it as a part. Without a
-/// key: topics called "value", then topics of measures without a value.
+/// Topics with this key or, if there are none, with keys that contain it as a part. If `key` is
+/// empty: topics with keys that end in "value", then all topics of measures without such keys.
 std::vector<Topic> topics_of(std::span<const MeanRow> means, const std::string& key) {
     const bool whole = std::ranges::count(means, key, &MeanRow::key) > 0;
     const auto is_value = [](const Topic& topic) { return last_part(topic.key) == "value"; };
@@ -102,7 +102,7 @@ std::vector<Topic> topics_of(std::span<const MeanRow> means, const std::string& 
     return topics;
 }
 
-/// Panel of a topic with a curve for each generator, which has the same colour in all panels.
+/// Panel of a topic, with one curve per generator. A generator has one colour in all panels.
 ChartPanel panel_of(const Topic& topic, const std::string& name, std::span<const MeanRow> means) {
     const bool errors = is_error_key(topic.key);
     ChartPanel panel{

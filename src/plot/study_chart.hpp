@@ -19,8 +19,8 @@ struct StudyChart {
     std::vector<std::string> left_out;  ///< keys of results beyond the limit of four panels
 };
 
-/// Draws a study's means. @param key the name of a result, or a part of several names between dots;
-/// empty: results called "value", and all results of measures without a value
+/// Draws a study's means. @param key a result, such as centered.value, or a part of its name, such
+/// as centered; empty: results called "value", and all results of measures without a "value"
 /// @throws Error(usage) for an unknown key; Error(input) if there are no numbers
 StudyChart study_chart(std::span<const MeanRow> means, const std::string& key = {});
 

@@ -17,7 +17,7 @@
 namespace stipple::plot {
 namespace {
 
-constexpr std::size_t frame_columns = 3;  ///< columns beside the field, in addition to the numbers
+constexpr std::size_t frame_columns = 3;  ///< columns of the frame, without the numbers beside it
 constexpr std::size_t frame_rows = 6;     ///< title, names, frame, numbers and shell prompt
 constexpr std::array<const char*, 5> shades = {" ", "░", "▒", "▓", "█"};
 constexpr std::size_t least_columns = 8;
@@ -27,14 +27,14 @@ std::size_t inner(std::size_t room, std::size_t taken, std::size_t least) {
     return room > taken + least ? room - taken : least;
 }
 
-/// Number of columns that frame and numbers leave for the field.
+/// Number of columns for the picture itself, without its frame and the numbers beside it.
 std::size_t columns_for(const TextRoom& room, const TextFrame& frame) {
     const std::size_t numbers =
         std::max(code_points(frame.low_y).size(), code_points(frame.high_y).size());
     return inner(room.columns, frame_columns + numbers, least_columns);
 }
 
-/// A field for a picture with this ratio of height to width; a dot is as high as wide.
+/// Matrix of dots for a picture with this ratio of height to width; dots are as high as wide.
 DotMatrix field_for(const TextRoom& room, const TextFrame& frame, double ratio) {
     const std::size_t columns = columns_for(room, frame);
     const std::size_t rows = inner(room.rows, frame_rows, least_rows);
@@ -174,7 +174,7 @@ void draw_columns(DotMatrix& dots, const ChartPanel& panel, std::size_t i, const
     }
 }
 
-/// Letters of the curves for each row of the field, at the heights where the curves end.
+/// For each row of `dots`, the letters of the curves that end at its height.
 std::vector<std::string> ends_of(const ChartPanel& panel, const DotMatrix& dots, const Axis& y,
                                  bool coloured) {
     const std::size_t rows = dots.height() / 4;
@@ -199,7 +199,7 @@ std::pair<std::string, std::string> ends_upward(const Chart& chart, std::size_t 
     return rounded_ends(y.low, y.high, 3);
 }
 
-/// One panel in its frame; numbers along x only at the last panel, unless each has its own.
+/// One panel in its frame. If all panels share the x axis, only the last one shows its numbers.
 /// @param side width of the numbers to the left of all panels
 std::string panel_as_text(const Chart& chart, std::size_t number, const PictureStyle& style,
                           std::size_t side, const TextRoom& room) {
@@ -241,7 +241,7 @@ std::string panel_as_text(const Chart& chart, std::size_t number, const PictureS
 }  // namespace
 
 std::string chart_as_text(const Chart& chart, PictureStyle style, const TextRoom& room) {
-    style.tight = true;  // makes the numbers at the ends those of the data
+    style.tight = true;  // axes, and their numbers, end exactly at the data
     std::string text;
     TextRoom part = room;
     part.rows = std::max(room.rows / chart.panels.size(), frame_rows + 2 * least_rows);

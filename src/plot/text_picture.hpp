@@ -21,7 +21,7 @@ struct TextRoom {
     std::size_t columns = 80;
     std::size_t rows = 24;
     bool coloured = false;                   ///< uses terminal colour codes
-    std::optional<std::size_t> letter = {};  ///< number of the first panel's letter
+    std::optional<std::size_t> letter = {};  ///< letter of the first panel: 0 for (a)
 };
 
 /// One coordinate: a histogram. Two: the plane. Three: a view from a fixed direction. More: as many
@@ -35,15 +35,15 @@ std::string chart_as_text(const Chart& chart, PictureStyle style, const TextRoom
 /// A spectrum in five shades of grey.
 std::string spectrum_as_text(const Grid& power, const TextRoom& room);
 
-/// The local discrepancy in shades up to `largest`: blocks for too many points, letters for too
-/// few.
+/// The local discrepancy in shades up to `largest`: blocks for boxes with too many points, letters
+/// for boxes with too few.
 std::string local_discrepancy_as_text(const PointSet& points, const WorstBoxes& worst,
                                       double largest, const TextRoom& room, const RunContext& run);
 
 /// One number for each pair of coordinates, in five shades up to `largest`.
 std::string pair_table_as_text(const PairTable& table, double largest);
 
-/// Room for each of several pictures that are placed side by side, as many as fit in a row.
+/// Room for each of several pictures, if as many as fit into a row are placed side by side.
 TextRoom shared_room(const TextRoom& room, std::size_t pictures);
 
 /// Joins pictures side by side; starts a new row where room.columns is exceeded.
