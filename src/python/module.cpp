@@ -52,8 +52,8 @@ namespace {
 
 using Given = std::tuple<Array, std::string, std::string>;  ///< rows, domain, provenance as JSON
 
-/// Returns a set with its provenance or, for a table, the provenance and domain of its inputs.
-/// Shows notes on column names that are replaced.
+/// Returns a set with its provenance. If `table`, the rows are not points of a domain, and
+/// provenance and domain are those of their inputs. Warns of column names that are replaced.
 PointSet set_of(const Given& given, bool table = false) {
     const auto& [rows, domain, meta] = given;
     PointSet points = points_of(rows, table ? "unit-cube" : domain);
@@ -148,7 +148,7 @@ py::tuple warp(const std::string& text, const Settings& settings, const Given& g
     return py::make_tuple(array_of(std::move(image)), meta);
 }
 
-/// The domain of some coordinates of points; empty if it is unknown because they depend on others.
+/// Domain of some columns of points; empty if they depend on other columns, so that it is unknown.
 std::string domain_of_columns(const std::string& domain, std::size_t dimension,
                               const std::vector<std::size_t>& columns) {
     std::vector<Factor> kept;
@@ -164,8 +164,8 @@ std::string domain_of_columns(const std::string& domain, std::size_t dimension,
     return filled_up(std::move(kept), columns.size())->spec();
 }
 
-/// The names of a domain's coordinates, None for those without a name, and their levels. A factor
-/// that is the whole domain may have more or fewer coordinates than `dimension`.
+/// Names of a domain's coordinates, None for those without a name, and their levels. A domain with
+/// a single factor returns that factor's names, even if their number is not `dimension`.
 py::tuple names_of_domain(const std::string& text, std::size_t dimension) {
     std::vector<std::optional<std::string>> names(dimension);
     py::dict levels;
@@ -224,7 +224,7 @@ py::array warp_density(const std::string& text, const Settings& settings, const 
     return column(chain_to(spec_of(text, settings), points.dimension()).density(points.flat()));
 }
 
-/// Density of the points: that of biased warps which made them, or that of their domain.
+/// Density of each point: according to the biased warps that made it, if any, or to its domain.
 py::array density(const Given& given) {
     const PointSet points = set_of(given);
     auto biased = biased_densities(points, {});
@@ -352,7 +352,7 @@ plot::Drawing picture(const std::vector<std::pair<std::string, Given>>& given, d
     });
 }
 
-/// Name, the record made by analyze(), and results.
+/// A report: name, the record made by analyze(), and results.
 using Reported =
     std::tuple<std::string, std::tuple<std::string, std::uint64_t, std::size_t, std::string>,
                py::dict>;

@@ -32,8 +32,8 @@ struct How {
     py::object progress;    ///< function called with the fraction done, or None
 };
 
-/// Whether this process was forked after a call of this function. Such a process must not use the
-/// thread pool of oneTBB, which still counts on the parent's threads.
+/// Whether this process was forked after the first call of this function. A forked process must not
+/// use the thread pool of oneTBB, since the pool's threads exist only in the parent.
 inline bool forked() {
     static const pid_t first = getpid();
     return first != getpid();

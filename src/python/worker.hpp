@@ -65,8 +65,8 @@ class Worker {
     std::thread thread_;
 };
 
-/// The worker of this Python thread; a new one if it is busy, since progress functions may make
-/// calls, too.
+/// Borrows the worker of this Python thread, or starts another one if it is busy: a progress
+/// function may call the library while a call is running.
 class HiredWorker {
   public:
     HiredWorker() : worker_(std::move(idle())) {
