@@ -34,7 +34,7 @@ Item shaped(Curve values, const Item& like) {
     return values.front();
 }
 
-/// Merges one report's entry into the running means. Returns false if the entry must be omitted.
+/// Merges an entry of the k-th report into its running mean; returns false to omit the entry.
 bool merge(Item& mean, Item& squares, const Item& item, double k);
 
 void merge_groups(Report& mean, Report& squares, const Report& report, double k) {
@@ -77,11 +77,11 @@ bool merge(Item& mean, Item& squares, const Item& item, double k) {
     return true;
 }
 
-/// Whether a result has no meaningful standard error. This holds for values that are not measured
-/// per set: exact values, errors and p-values. It also holds for results that an analyzer
-/// recomputes from the mean and that do not scatter like a mean. Decibels scatter as much for many
-/// sets as for one; the position of a threshold depends on the curve's slope; sums of deviations
-/// from 1 decrease with the number of sets.
+/// Whether a result has no meaningful standard error: exact values, errors and p-values, which are
+/// not measured per set; and results that an analyzer recomputes from mean curves, so that their
+/// error is not that of a mean. Examples are decibels, whose scatter does not decrease with the
+/// number of sets, thresholds, which depend on the slope of a curve, and sums of deviations from 1,
+/// which decrease with the number of sets.
 bool is_no_mean(std::string_view name) {
     constexpr std::array names = {"exact",
                                   "standard_error",
@@ -100,7 +100,7 @@ bool is_no_mean(std::string_view name) {
     return std::ranges::find(names, name) != names.end();
 }
 
-/// Standard errors of the entries of `mean`, from the sums of squares.
+/// Standard errors of the entries of `mean`: sqrt(`squares` / `divisor`), entry by entry.
 Report errors_of(const Report& mean, const Report& squares, double divisor) {
     Report out;
     for (const auto& [name, value, unit] : squares.entries()) {

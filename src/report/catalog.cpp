@@ -125,7 +125,7 @@ constexpr const char* generators_verb = "generate";
 constexpr const char* warps_verb = "warp";
 constexpr const char* analyzers_verb = "analyze";
 
-// Kinds, each made at first use: making all took a quarter of a short command's time.
+// Each kind is made at its first use: making all took a quarter of the time of a short command.
 const Kind& generator_kind() {
     static const Kind kind = kind_of("generators", generators_verb, generators::all());
     return kind;

@@ -23,7 +23,7 @@ bool compare(double a, std::string_view op, double b) {
     return (op[0] == '<' && a < b) || (op[0] == '>' && a > b) || (op.ends_with('=') && a == b);
 }
 
-/// Reports an error in a condition.
+/// Throws an Error(usage) for a condition.
 template <class... Args>
 [[noreturn]] void refuse(const Check& check, fmt::format_string<Args...> what, Args&&... args) {
     fail(ErrorKind::usage, "{}: {}", check.option, fmt::format(what, std::forward<Args>(args)...));
@@ -63,7 +63,7 @@ std::optional<Range> bounds_of(const Check& check, const Report& report) {
                  number_of(check, report, group + "upper" + index)};
 }
 
-/// The number to compare. For a `value` with bounds, the bound that makes the condition harder.
+/// Number to compare. For a `value` with bounds: the upper bound for < and <=, else the lower one.
 double bounded(const Check& check, const Report& report) {
     const bool known = report.find(check.key.substr(0, check.key.find('['))) != nullptr;
     const double found = known ? number_of(check, report, check.key) : 0;

@@ -15,7 +15,7 @@ struct Check {
     std::string key = {};            ///< dotted key of a result
     std::string op = {};             ///< < <= > >= == !=
     std::string value = {};          ///< a number, true, false, or a word
-    std::string option = "--check";  ///< option that gave it, for messages
+    std::string option = "--check";  ///< option with this condition, for messages
 
     /// Whether the condition holds. @throws Error(usage) if the key does not exist, or if its
     /// result is not a number but is compared with a number
@@ -28,8 +28,8 @@ struct Check {
 /// Parses a condition. @throws Error(usage)
 Check parse_check(std::string_view text, const std::string& option = "--check");
 
-/// Rejects conditions that cannot make sense before anything is measured: for a result that is a
-/// word, operators other than == and !=, and words that it never is.
+/// Rejects conditions that can never make sense, before the points are measured. For a result that
+/// is a word, these are operators other than == and !=, and words that the result never is.
 /// @throws Error(usage) naming the possible words
 void require_sense(const Check& check, const ResultKey& result);
 

@@ -78,7 +78,7 @@ std::string source_of(const Measurement& m) {
     return source;
 }
 
-/// Lists too long for a line, as tables with their names above.
+/// Tables of the lists that are too long for one line; the head of each column is the list's key.
 std::string tables_of(const Report& report) {
     std::vector<std::pair<std::string, std::vector<std::string>>> tables;  // group and length, keys
     for (const auto& key : report.keys()) {
@@ -113,7 +113,7 @@ std::string tables_of(const Report& report) {
 std::string head_of(const Measurement& m) {
     const std::string most = m.largest_count > 0 ? fmt::format(" to {}", m.largest_count) : "";
     const std::string of = m.columns.empty() ? "" : ": " + join(m.columns, ", ");
-    constexpr std::size_t readable_size = 60;  // named parameters have a long text in JSON
+    constexpr std::size_t readable_size = 60;  // longer specs lose their options
     const std::string domain = m.domain.substr(
         0, m.domain.size() > readable_size ? m.domain.find(':') : std::string::npos);
     return fmt::format("{} of {} ({}{} points, dimension {}{}, {})\n", m.analyzer, source_of(m),

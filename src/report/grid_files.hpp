@@ -18,8 +18,8 @@ std::string npy_bytes(const Grid& power);
 struct PowerPicture {
     std::string scale = "ratio";  ///< scale of grey: ratio, linear or log
     int bits = 8;                 ///< bits per pixel: 8 or 16
-    std::int64_t slice = 0;       ///< plane of a cube to draw, by its frequency f_2
-    double differences = 0;       ///< half-width of pair differences in mean distances; 0: spectrum
+    std::int64_t slice = 0;       ///< for a cube: frequency f_2 of the plane to draw
+    double differences = 0;  ///< for pair differences: half-width, in mean distances; 0: spectrum
 };
 
 /// A power spectrum as a grey PNG picture, one pixel per frequency. The last row of the grid is at

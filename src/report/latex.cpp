@@ -119,8 +119,8 @@ std::map<std::string, double> numbers_in(const Report& report, std::vector<std::
     return found;
 }
 
-/// Position of a number in a table with a row for each group and each entry of lists: y.x.first is
-/// in the row y.x, and mean[0] in the row [0].
+/// Position of a number in a table with a row for each group and each list entry: the number
+/// y.x.first is in row y.x, column first, and mean[0] is in row [0], column mean.
 struct Position {
     std::string group = {};
     std::string entry = {};  ///< index in a list, such as "[0]"; or empty
@@ -140,7 +140,7 @@ struct Position {
     [[nodiscard]] std::string row() const {
         return group.substr(0, std::max<std::size_t>(group.size(), 1) - 1) + entry;
     }
-    /// Kind: the depth of the group and whether in a list. Each kind of number has its own table.
+    /// Depth of the group, and whether the number is in a list. Each kind has its own table.
     [[nodiscard]] std::pair<std::ptrdiff_t, bool> kind() const {
         return {std::ranges::count(group, '.'), !entry.empty()};
     }

@@ -18,13 +18,13 @@ inline constexpr const char* latex_packages = "% needs \\usepackage{booktabs}\n"
 /// Text in which LaTeX's special characters are escaped.
 std::string latex_text(std::string_view text);
 
-/// A number in mathematical mode: with four digits or, if the half-width of its interval is known,
-/// with two digits of that: $0.0430 \pm 0.0021$. Unknown numbers are a dash.
+/// A number in mathematical mode, with four digits unless it is whole. A known half-width of its
+/// interval is added, with two digits: $0.0430 \pm 0.0021$. NaN becomes a dash.
 std::string latex_number(double value, double half_width);
 
 struct LatexTable {
     std::vector<std::string> comments = {};  ///< lines above the table, as plain text
-    std::vector<std::string> head = {};      ///< column heads; in LaTeX, like all cells
+    std::vector<std::string> head = {};      ///< heads of the columns; LaTeX code, as are the rows
     std::vector<std::vector<std::string>> rows = {};
     std::size_t words = 0;  ///< number of columns at the left that hold words
 

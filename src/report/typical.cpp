@@ -10,7 +10,7 @@
 namespace stipple {
 
 namespace tables {
-const char* typical_csv();  // analyzer,key,random,jittered,best,generator
+const char* typical_csv();  // columns analyzer,key,random,jittered,best,generator
 }
 
 namespace {
