@@ -43,8 +43,8 @@ Randomization make(const Values& options, const ScrambleRequest& request) {
         fail(ErrorKind::usage, "micro-jitter: --cells: needed, as the number of points is unknown");
     return [count, seed = request.seed, which = request.coordinates](std::uint64_t first,
                                                                      std::span<double> rows) {
-        // The fixed stride gives a coordinate the same u no matter which others are scrambled. Each
-        // 2^44 points have a stream of their own, as there are 2^64 numbers in one.
+        // With a fixed stride, u does not depend on which other coordinates are scrambled. A stream
+        // has 2^64 numbers, enough for 2^44 points; the next 2^44 points use another stream.
         constexpr std::uint64_t stride = std::uint64_t{1} << 20;
         const auto rng = [seed](std::uint64_t index) {
             const auto stream = static_cast<std::uint64_t>(ScrambleStream::micro_jitter);

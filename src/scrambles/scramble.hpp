@@ -37,7 +37,7 @@ struct Scramble {
     std::string summary;
     std::string source;
     std::string family = {};  ///< family name such as "blue noise", set by the registry
-    /// Search words, such as kind, parts or uses; no names of other components (layering_test.cpp).
+    /// Search words: kind, parts, uses; no names of components (tests: layering_test.cpp).
     std::vector<std::string> related = {};
     Schema options;
     std::vector<std::string> aliases = {};  ///< other names that users may type
@@ -50,7 +50,7 @@ struct Scramble {
 };
 
 /// Bases of the coordinates given by `--base`: one number for all, or one for each.
-/// @throws Error(usage) for invalid bases, and if `prime` for bases that are not prime
+/// @throws Error(usage) for invalid bases and, if `prime` is true, for bases that are not prime
 std::vector<std::uint32_t> bases_for(const std::vector<double>& given, std::size_t coordinates,
                                      bool prime);
 
