@@ -38,8 +38,8 @@ class Rows {
     /// Takes ownership of the numbers.
     explicit Rows(std::vector<double> numbers) : given_(std::move(numbers)), view_(given_) {}
 
-    /// Fresh memory for `count` rows of `width` numbers, which must be written before they are read.
-    /// @throws Error(limit) if the memory cannot be had
+    /// Fresh memory for `count` rows of `width` numbers; write them before reading them.
+    /// @throws Error(limit) if the memory is not available
     static Rows unwritten(std::size_t count, std::size_t width);
 
     Rows(const Rows& other) : Rows(std::vector<double>(other.view_.begin(), other.view_.end())) {}
@@ -116,7 +116,7 @@ class PointSet {
   public:
     PointSet() = default;
 
-    /// All coordinates 0. @throws Error(limit) if the memory cannot be had
+    /// All coordinates are 0. @throws Error(limit) if the memory is not available
     PointSet(std::size_t count, std::size_t dimension);
 
     /// Takes rows of `dimension` numbers. @throws Error(usage) if the last row is incomplete

@@ -20,8 +20,8 @@ struct RunContext {
     /// Called with the fraction done, in [0, 1], never falling; by one thread at a time.
     std::function<void(double)> progress = {};
 
-    /// Called before `progress` with a short status text, shown instead of the time left, which
-    /// such progress does not predict; by one thread at a time.
+    /// Called before `progress`, by one thread at a time, with a short status text. It is
+    /// shown instead of the time left, which cannot be estimated for such work.
     std::function<void(const std::string&)> note = {};
 
     /// Called with a sentence that the user should see; by one thread at a time.
