@@ -2,17 +2,17 @@
 //
 // Statistics of independent replications: means, their intervals, and differences of two means.
 //
-//     mean, s^2 = sum (x - mean)^2 / (r - 1), standard error s / sqrt(r)
+//     r numbers x: mean, s^2 = sum (x - mean)^2 / (r - 1), standard error s / sqrt(r)
 //     t interval: mean -+ t(r - 1) s / sqrt(r)
 //     root mean square: q = sqrt(sum x^2 / r); its interval from q sqrt(r / chi^2(r)) at both tails
-//     bootstrap interval: quantiles of the means of B samples of r drawn with replacement
+//     bootstrap interval: quantiles of the means of B samples of r numbers drawn with replacement
 //     Welch: t = (mean_a - mean_b) / sqrt(s_a^2 / r_a + s_b^2 / r_b), with Satterthwaite's degrees
 //     paired: the t test of the differences x_a - x_b
-//     Holm: the i-th smallest of m p-values (from 0) times m - i, never falling, at most 1
+//     Holm: the i-th smallest of m p-values, i from 0, times m - i; made non-decreasing, at most 1
 //
 // Promise  the bootstrap is a function of the numbers, their order and the seed alone.
 //          Numbers that differ by at most 2^-44 of the larger one count as equal: that is rounding.
-// Beware   if neither sample varies, no error can be estimated: p = 1 if the means are the same, else
+// Beware   if neither sample varies, no error can be estimated: p is 1 for equal means, otherwise
 //          0. Undefined values, such as the error of one number, are NaN.
 // Source   B. L. Welch, Biometrika 34 (1947) 28-35, doi:10.1093/biomet/34.1-2.28; S. Holm,
 //          Scandinavian Journal of Statistics 6 (1979) 65-70; B. Efron, Annals of Statistics 7
@@ -50,11 +50,11 @@ Interval t_interval(const SampleSummary& sample, double confidence);
 
 double root_mean_square(std::span<const double> sample);
 
-/// Interval for the root mean square of independent normal numbers of mean 0; NaN if the numbers are
-/// all the same.
+/// Interval for the root mean square of independent normal numbers of mean 0; NaN if all numbers
+/// are the same.
 Interval rms_interval(std::span<const double> sample, double confidence);
 
-/// Percentile interval for the mean; `stream` separates samples that share a seed.
+/// Bootstrap interval for the mean; samples with the same seed should have different `stream`s.
 /// @throws Error(cancelled)
 Interval bootstrap_interval(std::span<const double> sample, double confidence,
                             std::uint64_t resamples, std::uint64_t seed, std::uint64_t stream = 0,

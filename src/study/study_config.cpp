@@ -17,7 +17,7 @@
 namespace stipple {
 namespace {
 
-/// Kind of a key's value: specs of units; words and numbers, one or a list; true or false.
+/// Values of a key: specs, one or a list; items (words or numbers), one or a list; a boolean.
 enum class Holds { specs, items, flag };
 
 struct Key {
@@ -102,7 +102,7 @@ class ConfigReader {
         }
         if (!value.is_boolean())
             refuse(where, fmt::format("expected true or false, got {}", shown(json_text(value))));
-        // The option --no-seconds omits results, all other flags request some.
+        // Only "seconds" is true by default; if false, it becomes the flag --no-seconds.
         const bool left_out = name == "seconds";
         if (value.get<bool>() != left_out)
             settings_.emplace_back(left_out ? "no-seconds" : name, "true");
@@ -239,7 +239,7 @@ class CountRange {
     }
 
     /// Base of the powers that a range is written with: 2 in 2^4..2^16.
-    /// @throws Error(usage) unless both ends are powers of it: the numbers between are then unclear
+    /// @throws Error(usage) unless both ends are powers of it
     std::uint64_t base(std::uint64_t first, std::uint64_t last) const {
         const auto mark = text_.find('^');
         const auto end = text_.substr(0, mark);

@@ -5,7 +5,7 @@
 //     {"generators": ["random", {"name": "sobol", "options": {"scramble": "owen"}}],
 //      "count": "2^4..2^16", "seeds": 32, "analyze": ["star-discrepancy"], "warp": ["disk"]}
 //
-// data/study.schema.json describes it for editors.
+// data/study.schema.json describes the format for text editors.
 #pragma once
 
 #include <cstdint>

@@ -117,10 +117,10 @@ Json json_of_settings(const Sweep& sweep) {
     return settings;
 }
 
-/// As difference(), for a table without a journal, whose rows do not show the requested keys,
-/// curves and limits: tries those of `ours` and a few others until the fingerprint agrees.
-/// @param ours the study of the rows, with the other settings of this study
-/// @param keys of all rows, once each
+/// Describes a differing setting that rows do not show (keys, curves, time limit), for a table
+/// without a journal: tries settings of `ours` and a few others until the fingerprint agrees.
+/// @param ours the study of the rows, with those settings as requested now
+/// @param keys the distinct keys of the rows, or 100 of them
 std::string hidden_difference(const Sweep& ours, const std::string& fingerprint,
                               const std::vector<std::string>& keys) {
     for (const auto& kept : {ours.request().keys, {}, keys})
@@ -134,7 +134,7 @@ std::string hidden_difference(const Sweep& ours, const std::string& fingerprint,
                     const Sweep theirs(std::move(request));
                     if (theirs.fingerprint() == fingerprint)
                         return difference(json_of_settings(theirs), ours);
-                } catch (const Error&) {  // a study cannot have such keys
+                } catch (const Error&) {  // no study has these keys
                 }
             }
     return ": of other keys, another time-limit or version of stipple, which rows do not show";
@@ -210,7 +210,7 @@ class StudyFile::TableReader {
         if (row.failed()) failure_ = row;
     }
 
-    /// Ends the part of the table with rows of a smaller study. The rows of this study follow.
+    /// Call at the first row of this study after rows of a smaller study: ends their part.
     void begin_own_part(const StudyRow& row) {
         if (part_ == &file_.sweep_ || row.study != file_.sweep_.fingerprint()) file_.refuse_other();
         end_part(false);
@@ -245,18 +245,18 @@ class StudyFile::TableReader {
     void end_unit() {
         if (!like_) return;
         const std::uint64_t unit = own_unit();
-        // Memory or a missing file may be available now: such a unit is measured again.
+        // Units that lacked memory or a file are measured again: both may be available now.
         if (failure_ && failure_->lacked_something()) return;
         if (failure_) file_.note_failure(unit, *failure_);
         file_.store({unit, unit + 1}, begin_, end_ - begin_);
         usual_keys_[like_->measure] = {*like_, std::move(keys_)};
     }
 
-    /// Stores the last unit of a part if it is complete. Returns false if it may lack rows.
+    /// Stores the last unit of `part_` if it is complete. Returns false if it may lack rows.
     bool end_part(bool finished) {
         if (!like_) return true;
         const auto& [row, keys] = usual_keys_[like_->measure];
-        // Sets of another cell may have longer or shorter lists, so equal keys prove nothing.
+        // Equal keys prove nothing if lists may differ in length, as for other generators, n or d.
         const bool alike = finished || !keys_.back().ends_with(']') ||
                            (row.generator == like_->generator && row.count == like_->count &&
                             row.dimension == like_->dimension);
@@ -267,11 +267,11 @@ class StudyFile::TableReader {
 
     StudyFile& file_;
     std::optional<Sweep> smaller_;
-    const Sweep* part_;  ///< study of the rows being read
-    bool unfinished_;    ///< there is a journal
-    bool ordered_;       ///< units must be in order
+    const Sweep* part_;  ///< study that the rows being read belong to
+    bool unfinished_;    ///< whether there is a journal
+    bool ordered_;       ///< whether units must be in order
     std::uint64_t line_ = 0;
-    std::optional<StudyRow> like_;  ///< columns of the unit being read
+    std::optional<StudyRow> like_;  ///< row_of() of the unit being read
     std::uint64_t unit_ = 0;
     std::vector<std::string> keys_;    ///< keys of the unit's rows
     std::optional<StudyRow> failure_;  ///< row of the unit, if it failed
@@ -305,7 +305,7 @@ void StudyFile::open_file(Start start, const RunContext& run) {
     const bool unfinished = exists(status_of(journal_of(path_)));
     Lines lines(path_);
     std::string first;
-    // A crash may have left a part of the first line, or nothing.
+    // After a crash, the first line may be incomplete or missing.
     bool whole = lines.take(first);
     for (; whole && is_study_preface(first); whole = lines.take(first), ++head_lines_)
         head_size_ += first.size() + 1;
@@ -358,7 +358,7 @@ void StudyFile::lock_journal() {
     struct stat there = {};
     const bool alone = ::flock(journal_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
     if (!alone) fail(ErrorKind::io, "{}: another study is writing to it", path_);
-    // Another process may have finished in between: the opened journal is then its table.
+    // If another process finished before the lock, it has renamed the opened file to its table.
     if (::fstat(journal_, &locked) != 0 || ::stat(journal_of(path_).c_str(), &there) != 0 ||
         locked.st_ino != there.st_ino)
         fail(ErrorKind::io, "{}: another study is writing to it", path_);
@@ -421,8 +421,8 @@ std::optional<Sweep> StudyFile::smaller_study(const RunContext& run) const {
     }
     if (fingerprint.empty()) return std::nullopt;
     request.seeds = last_seed - request.first_seed + 1;
-    // The fingerprint also covers settings that rows do not show (keys, limits), and sets without
-    // rows.
+    // Its fingerprint is compared, too: it also covers settings that rows do not show (keys,
+    // limits), and sets that have no rows.
     std::optional<Sweep> sweep;
     try {
         sweep.emplace(std::move(request));
@@ -520,7 +520,7 @@ void StudyFile::sync() {
     if (!is_synchronised(::fsync(output_))) lost_ = errno;
 }
 
-/// Returns the line with the fingerprint of this study.
+/// Returns the line, with its fingerprint replaced by that of this study.
 std::string StudyFile::renamed(const std::string& line) const {
     StudyRow row = table_.parse(line).value();
     row.study = sweep_.fingerprint();
@@ -578,7 +578,7 @@ void StudyFile::finish(const std::string& more, const RunContext& run) {
         stream_->write(more);
         return;
     }
-    // The system does not retry a write that an earlier sync reported as failed.
+    // If an earlier sync failed, rows may be lost: later syncs do not write them again.
     if (lost_ != 0) refuse_file(path_, lost_);
     const bool in_order =
         !mixed_ && index_.size() == 1 && head_size_ + index_.begin()->second.bytes == size_;

@@ -10,11 +10,11 @@
 // either the old table or the new one is complete.
 //
 // Resuming   If a table has a journal, its units are in any order; otherwise they are in order,
-//            without gaps. The last unit may lack rows. It is run again unless its rows have the
-//            keys of the preceding unit of the same measure; if an incomplete table ends with a
-//            list, both must also have the same generator, n and d. Text after the last complete
-//            row of an unfinished table is cut off; other damage is an error. Rows of a finished
-//            smaller study stay in front, and get this one's fingerprint in the rewritten table.
+//            without gaps. The last unit may lack rows: it is run again unless it has the keys of
+//            the preceding unit of the same measure and, if the last key is a list's, the same
+//            generator, n and d. Text after the last complete row of an unfinished table is cut
+//            off; other damage is an error. If the study extends a finished smaller one, rows of
+//            the latter come first, and get the new fingerprint when the table is rewritten.
 // Beware     standard output, pipes and devices get rows in order: early rows wait in memory.
 #pragma once
 
@@ -42,7 +42,7 @@ struct StudyFailures {
     std::uint64_t units = 0;
     std::uint64_t first_unit = 0;
     StudyRow first = {};     ///< row of the first unit that failed
-    bool met_limit = false;  ///< some unit exceeded the limit of memory or time
+    bool met_limit = false;  ///< whether a unit exceeded a limit of memory or time
 };
 
 class StudyFile {
@@ -116,22 +116,22 @@ class StudyFile {
     const Sweep& sweep_;
     const StudyTable& table_;
     Listener listener_;
-    std::optional<io::Output> stream_;  ///< instead of a file: standard output, a pipe, a device
+    std::optional<io::Output> stream_;  ///< standard output, a pipe or a device; empty: a file
     int output_ = -1;
     int journal_ = -1;
     std::mutex mutex_;                          // guards the members down to failures_
-    std::map<std::uint64_t, Stored> index_;     ///< stored units, by the first of each range
+    std::map<std::uint64_t, Stored> index_;     ///< ranges of stored units, by their first unit
     std::map<std::uint64_t, Segment> waiting_;  ///< early segments of a stream, by first unit
     std::uint64_t head_size_ = 0;               ///< bytes above the rows
     std::size_t head_lines_ = 0;                ///< lines above the rows
     std::uint64_t size_ = 0;                    ///< bytes of the table
     std::uint64_t written_ = 0;                 ///< number of units in the file
-    bool mixed_ = false;         ///< some rows have the fingerprint of a smaller study
-    std::exception_ptr broken_;  ///< a write failed: nothing may follow the gap
+    bool mixed_ = false;         ///< whether some rows have the fingerprint of a smaller study
+    std::exception_ptr broken_;  ///< error of a failed write; later calls of put() throw it again
     StudyFailures failures_;
     bool journal_synced_ = false;
-    std::atomic<bool> dirty_ = false;  ///< something was written since the last sync
-    std::atomic<int> lost_ = 0;        ///< errno of a sync that failed
+    std::atomic<bool> dirty_ = false;  ///< whether rows were written since the last sync
+    std::atomic<int> lost_ = 0;        ///< errno of a failed sync; 0: none failed
 };
 
 }  // namespace stipple

@@ -20,8 +20,8 @@ namespace {
 using Work = std::vector<UnitRange>;
 
 // Kinds of messages: their first byte.
-constexpr char ask_message = 'A';   // request of a thread for work
-constexpr char work_message = 'W';  // answer: a piece; empty after the last one
+constexpr char ask_message = 'A';   // a thread asks for work
+constexpr char work_message = 'W';  // answer: a piece of work; empty if there is no more
 constexpr char done_message = 'D';  // results of a piece
 constexpr char bye_message = 'B';   // the sender has finished
 constexpr char halt_message = 'H';  // the receiver is to stop at once
@@ -74,7 +74,7 @@ WorkDone unpacked(Unpacker& from) {
 RunContext share_of(const RunContext& run, std::uint64_t workers, unsigned threads) {
     RunContext share = run;
     share.max_memory = run.max_memory / workers;
-    share.memory_in_use = {};  // varies with the other workers, but rows must not
+    share.memory_in_use = {};  // depends on other workers, rows must not
     share.threads = threads;
     return share;
 }
@@ -127,7 +127,7 @@ class Leader {
         return ranges;
     }
 
-    /// Threads for a piece: one, unless this process alone has more threads than pieces.
+    /// Threads per piece of work: 1, or more if a single process has more threads than pieces left.
     unsigned inner_threads() {
         const std::lock_guard lock(mutex_);
         if (ranks_.size() > 1) return 1;
@@ -197,7 +197,7 @@ class Leader {
     }
 
     void wait_a_little() {
-        // Other ranks wait for answers, so pauses are shorter if there are any.
+        // Pauses are shorter if there are other ranks, since these wait for answers.
         std::this_thread::sleep_for(ranks_.size() > 1 ? short_pause : 5 * short_pause);
         if (run_.stop.stop_requested()) {
             const std::lock_guard lock(mutex_);
@@ -283,7 +283,7 @@ class Worker {
         return true;
     }
 
-    /// Sends results to rank 0, and asks for a piece after each. Returns false if there were none.
+    /// Sends waiting results to rank 0, each with a request for work; returns whether any waited.
     bool post() {
         bool any = false;
         for (std::string message; outbox_.try_pop(message); any = true) {
@@ -304,7 +304,7 @@ class Worker {
             std::string error;
             try {
                 result = runner_.run(ranges, share);
-            } catch (const std::exception& e) {  // usually because it was cancelled
+            } catch (const std::exception& e) {  // usually a cancellation
                 error = e.what();
             }
             outbox_.push(packed(ranges, result, error));

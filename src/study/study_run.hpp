@@ -18,8 +18,8 @@
 
 namespace stipple {
 
-/// Runs the units that are missing from the file, on rank 0; run.progress receives the elapsed
-/// fraction of the estimated time. Returns false if the reader of the pipe has closed it.
+/// Runs the units that are missing from the file; call it on rank 0. run.progress receives elapsed
+/// time / estimated total time. Returns false if the reader of a pipe has closed it.
 /// @throws Error(cancelled), with all finished units in the file; Error(io)
 bool run_study(const UnitRunner& runner, StudyFile& file, Ranks& ranks, const RunContext& run);
 

@@ -204,9 +204,9 @@ std::string StudySummary::comparisons(TableStyle style, const SummaryOptions& op
             visit("study", row.study);
         });
     };
-    const Sample none{};  // its cells are used only for the names of the columns
+    const Sample none{};  // only for the names of the columns
     std::string text = table_head(style, cells_of_pair({&none, &none}));
-    std::map<std::pair<std::string, std::string>, bool> same;  // true: no difference yet
+    std::map<std::pair<std::string, std::string>, bool> same;  // true: no difference so far
     for (const auto& members : topics_) {
         run.check_stop();
         for (const Pair& pair : pairs_of(members, options.paired)) {
@@ -235,7 +235,7 @@ class RowChoice {
         : wanted_(wanted), met_(wanted.size()) {}
 
     bool takes(const std::string& measure, const std::string& key) {
-        if (wanted_.empty() || key.empty()) return true;  // measures without results have no key
+        if (wanted_.empty() || key.empty()) return true;  // the key is empty if a measure failed
         const auto analyzer = std::ranges::find(
             analyzers::all(), measure.substr(0, measure.find(':')), &Analyzer::name);
         const bool known = analyzer != analyzers::all().end();
@@ -371,7 +371,7 @@ struct Wide {
             return static_cast<std::size_t>(it - known.begin());
         };
         for (const MeanRow& row : means) {
-            if (row.key.empty()) continue;  // all measurements failed
+            if (row.key.empty()) continue;  // no key: all measurements failed
             auto& cells = rows[{index(measures, row.measure), index(keys, row.key), row.dimension,
                                 row.count}];
             cells[index(generators, row.generator)] = cell_of(row);
@@ -416,7 +416,7 @@ std::string wide_latex(std::span<const MeanRow> means, const std::string& comman
     const Wide wide(means);
     LatexTable table{.comments = {fmt::format("stipple {}: {}", STIPPLE_VERSION, command)}};
     const std::vector<std::string> heads = {"measure", "key", "$d$", "$n$"};
-    std::vector<std::size_t> shown;  // label columns to show: those that vary, or n
+    std::vector<std::size_t> shown;  // label columns that vary; if none does, n
     for (std::size_t k = 0; k < label_columns; ++k) {
         const std::string first = wide.rows.empty() ? "" : wide.labels(wide.rows.begin()->first)[k];
         const bool varies = std::ranges::any_of(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Summary of a study over its seeds: means with their errors for every generator, and comparisons of
-// all pairs of generators.
+// Summary of a study over its seeds: means with their errors for every generator, and comparisons
+// of all pairs of generators.
 //
 // Promise  depends on the rows alone, which are added in the order of the study.
 // Beware   p-values are corrected over the pairs of generators within one dimension, count, measure
@@ -42,7 +42,7 @@ struct MeanRow {
     double median = not_known;
     double standard_deviation = not_known;
     double rms = not_known;      ///< root mean square
-    double rms_low = not_known;  ///< interval of rms, only for errors
+    double rms_low = not_known;  ///< interval of rms; NaN if the key is not an error
     double rms_high = not_known;
     double confidence = not_known;  ///< level of the intervals
     double t_low = not_known;       ///< Student's t interval of the mean
@@ -105,7 +105,7 @@ class StudySummary {
     [[nodiscard]] std::vector<Pair> pairs_of(const std::vector<std::size_t>& members,
                                              bool by_seed) const;
 
-    std::vector<Sample> samples_;                   ///< in the order of their first rows
+    std::vector<Sample> samples_;                   ///< ordered by their first rows in the table
     std::map<Topic, std::size_t> topic_numbers_;    ///< index in topics_
     std::vector<std::vector<std::size_t>> topics_;  ///< indices in samples_, for each topic
     struct Failed {
@@ -134,8 +134,8 @@ std::optional<std::variant<std::vector<MeanRow>, StudySummary>> read_study(
 std::optional<std::vector<MeanRow>> read_means(std::string_view bytes, const std::string& source,
                                                const RunContext& run);
 
-/// Replaces the names of the generators by labels, in the order of their first rows.
-/// @throws Error(usage) unless there is a label for each generator
+/// Renames the generators: labels[i] is the name of the i-th different generator in `means`.
+/// @throws Error(usage) unless there is one label for each generator
 void label_generators(std::vector<MeanRow>& means, std::span<const std::string> labels);
 
 // A wide table has a row for each measure, key, dimension and count, and columns for each
@@ -145,8 +145,8 @@ void label_generators(std::vector<MeanRow>& means, std::span<const std::string> 
 /// The table as CSV or JSONL, with the columns GENERATOR and GENERATOR half_width.
 std::string wide_table(std::span<const MeanRow> means, TableStyle style);
 
-/// The table for LaTeX, with cells MEAN +- HALF_WIDTH, without columns that have the same value in
-/// all rows. @param command that made it, for a comment
+/// The table for LaTeX, with cells MEAN +- HALF_WIDTH. Labels that are the same in all rows become
+/// comments instead of columns. @param command the user's command line, for another comment
 std::string wide_latex(std::span<const MeanRow> means, const std::string& command);
 
 }  // namespace stipple

@@ -2,8 +2,8 @@
 //
 // Rows of a study: a tidy table, as CSV or with a JSON object per line.
 //
-// Promise  a row is one line and reads back to the same row. Except its last two cells, the seconds,
-//          it depends on the study alone.
+// Promise  a row is one line and reads back to the same row. It depends on the study alone, except
+//          its last two cells, the seconds.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@
 
 namespace stipple {
 
-// Beginnings of the reasons of failures.
+// The text of a failure begins with one of these if a limit or a file was the reason.
 inline constexpr std::string_view lack_of_memory = "limit: ";
 inline constexpr std::string_view lack_of_file = "file: ";
 
@@ -41,7 +41,7 @@ struct StudyRow {
     std::optional<double> seconds = {};
 
     [[nodiscard]] bool failed() const { return status != "ok"; }
-    /// Whether the unit failed for lack of memory or of a file, and may succeed in another run.
+    /// Whether the unit failed because memory or a file was missing: another run may succeed.
     [[nodiscard]] bool lacked_something() const {
         return reason.starts_with(lack_of_memory) || reason.starts_with(lack_of_file);
     }
@@ -81,8 +81,8 @@ std::optional<std::uint64_t> unit_of(const Sweep& sweep, const StudyRow& row);
 /// Whether a row belongs to the unit whose row_of() is `unit`.
 bool belongs(const StudyRow& row, const StudyRow& unit);
 
-/// The first lines of a table, with the version and the command that made it: `# KEY: VALUE` in CSV,
-/// one object in JSONL.
+/// The first lines of a table, with the version and the command that made it: `# KEY: VALUE` in
+/// CSV, one object in JSONL.
 std::string study_preface(TableStyle style, const std::string& command);
 
 /// Whether a line is one of study_preface().
@@ -91,7 +91,7 @@ bool is_study_preface(std::string_view line);
 /// Removes the lines of a study_preface() from the start of a text.
 std::string_view without_preface(std::string_view text);
 
-/// Form of the rows in a file.
+/// Formats rows as lines of CSV or JSONL, and parses them.
 class StudyTable {
   public:
     /// @param preface text above the column names, from study_preface(); may be empty

@@ -115,7 +115,7 @@ std::string without_name(const std::string& key, const Analyzer& analyzer) {
     if (!is_of(key, analyzer)) return key;
     const bool alone = key == analyzer.name;
     std::string rest = alone ? "value" : key.substr(analyzer.name.size() + 1);
-    // An output of a model may have the analyzer's name.
+    // The key stays if a model's output has the analyzer's name.
     return !find_result(analyzer, key) || (!alone && has_result(analyzer, rest)) ? rest : key;
 }
 
@@ -146,7 +146,7 @@ void Sweep::choose() {
     choose_keys(request_.keys, measures_);
 }
 
-/// Index of the list of a generator's own warps, followed by the request's warps.
+/// Index in warp_lists_ of `own`, a generator's warps, followed by the request's; may add it.
 std::size_t Sweep::warp_list(std::vector<std::string> own) {
     own.insert(own.end(), request_.warps.begin(), request_.warps.end());
     WarpList list{.names = own};

@@ -43,7 +43,7 @@ template <class Unit>
 struct Chosen {
     const Unit* unit = nullptr;
     Values values = {};
-    std::string spec = {};  ///< without options at their defaults; with its own warps
+    std::string spec = {};  ///< omits default options; includes a generator's warps
     std::vector<std::pair<std::string, std::string>> options = {};  ///< all options
     std::size_t warps = 0;               ///< index of a generator's WarpList
     std::vector<std::string> keys = {};  ///< results of an analyzer to keep; empty: all numbers
@@ -81,8 +81,8 @@ struct UnitRange {
     bool operator==(const UnitRange&) const = default;
 };
 
-/// Whether `wanted` is the name of a result, or a part of it between dots. A part of `result` in
-/// capitals matches any word.
+/// Whether `wanted` is `result`, or one or more of its parts, which are separated by dots. A part
+/// of `result` in capitals matches any word.
 bool names_result(const std::string& result, std::string_view wanted);
 
 /// Whether `key` is the name of a result of the analyzer, or a part of it.
@@ -104,7 +104,7 @@ class Sweep {
     [[nodiscard]] const WarpList& warps_of(std::size_t generator) const {
         return warp_lists_[generators_[generator].warps];
     }
-    /// The request's warps as rows name them, joined by blanks; they follow the generators' own.
+    /// The request's warps, joined by blanks as in rows; the generators' own come before them.
     [[nodiscard]] const std::string& warp_names() const { return warp_names_; }
 
     [[nodiscard]] std::uint64_t cells() const;

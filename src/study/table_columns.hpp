@@ -19,11 +19,11 @@ namespace stipple::columns {
 
 inline std::string text_of(const std::string& text) { return text; }
 inline std::string text_of(std::uint64_t number) { return std::to_string(number); }
-/// An unknown number is NaN in a structure, and an empty cell in the table.
+/// An unknown number is NaN in a structure, and becomes an empty cell of the table.
 inline std::string text_of(double number) {
     return std::isnan(number) ? "" : format_number(number);
 }
-/// An unknown number is nullopt here, so that a measured NaN is "nan" in the table.
+/// In optional fields, an unknown number is nullopt, and a measured NaN becomes the cell "nan".
 inline std::string text_of(const std::optional<double>& field) {
     return field ? format_number(*field) : "";
 }

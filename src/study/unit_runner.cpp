@@ -96,8 +96,8 @@ PointSet some_points(std::size_t dimension, std::size_t count = 64) {
     return points;
 }
 
-/// Returns the Error that a measure throws for the points; nullopt if it accepts them, throws
-/// another exception, or is not done after `limit` seconds.
+/// Returns the Error that a measure throws for the points; nullopt if the measure accepts them,
+/// throws another exception, or is not done after `limit` seconds.
 std::optional<Error> refusal(const Chosen<Analyzer>& measure, const PointSet& points,
                              const RunContext& run, std::optional<double> limit = {}) {
     try {
@@ -118,8 +118,8 @@ bool takes_points(const Chosen<Analyzer>& measure, const PointSet& points, const
     return !error || (error->kind() != ErrorKind::input && error->kind() != ErrorKind::usage);
 }
 
-/// Whether a measure gets the warped points: it accepts them, or it does not accept points of the
-/// cube either.
+/// Whether a measure gets the warped points: true if it accepts these, or does not accept the
+/// points before the warps either.
 bool takes(const Chosen<Analyzer>& measure, const WarpChain& chain, const RunContext& run) {
     const std::string spec = chain.domain()->spec();
     if (spec == "unit-cube") return true;
@@ -152,8 +152,8 @@ void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t see
     PointSet& points = made.before;
     points = generated(list.first());
     if (list.later().empty()) return;
-    // The random choices of a scramble depend only on seed and coordinates, so that a chain in two
-    // parts gives the same points.
+    // The chain may be split after the scrambles: their random choices depend only on the seed and
+    // the coordinates, so the points are the same.
     const std::size_t d = points.dimension();
     const Plan plan{.count = points.count(), .dimension = d, .seed = seed};
     const ChainSet set = chain_set(*generator.unit, plan, generator.values);
@@ -175,7 +175,7 @@ UnitResult measured(const SweepRequest& request, const Chosen<Analyzer>& measure
     Report report;
     attempt(result, result.seconds, request.time_limit, run, [&](const RunContext& limited) {
         report = analyze(*measure.unit, points, measure.values, limited);
-        limited.check_stop();  // a report that was cut short is incomplete
+        limited.check_stop();  // throws if the time limit cut the report short
     });
     if (!result.failure.empty()) return result;
     result.numbers = numbers_of(report, measure.keys, request.curves);
@@ -315,7 +315,7 @@ void UnitRunner::require_options(const RunContext& run) const {
         const auto refused = [&](std::size_t w, std::size_t d) {
             const auto few = refusal_of({w, d, m}, 64, run);
             if (few && !first) first = few;
-            // For 149 points, an error that depends on the number of points has another message.
+            // If the message for 149 points differs, the error depends on the number of points.
             const auto more = few ? refusal_of({w, d, m}, 149, run) : std::nullopt;
             return more && std::string_view(more->what()) == few->what();
         };

@@ -53,7 +53,7 @@ class UnitRunner {
     void require_options(const RunContext& run) const;
 
   private:
-    /// A measure, with sets that it accepts or refuses alike.
+    /// A measure and a group of sets that it either all accepts or all refuses.
     struct View {
         std::size_t warps = 0;  ///< index of their WarpList
         std::size_t dimension = 0;
@@ -67,16 +67,16 @@ class UnitRunner {
 
     const Sweep& sweep_;
     std::uint64_t whole_memory_;
-    std::set<View> before_warps_;  ///< the measure gets the points before the warps
+    std::set<View> before_warps_;  ///< those where the measure gets the points before the warps
 };
 
-/// Whether one of the words is a part of the key between dots, or all of it: `value` and `centered`
-/// match centered.value, `mean` matches mean[0].
+/// Whether one of `wanted` is the key or one of its parts, which are separated by dots: `value` and
+/// `centered` match centered.value, `mean` matches mean[0].
 bool is_meant(const std::string& key, const std::vector<std::string>& wanted);
 
-/// Returns a report's numbers in order, under dotted keys; flags are 0 and 1. Lists become numbers
-/// NAME[I] with `curves`, with `keys`, or if there is nothing else. Non-empty `keys` select the
-/// numbers that they mean.
+/// Returns a report's numbers in order, under dotted keys; flags are 0 and 1. Lists, as numbers
+/// NAME[I], are included if `curves` is true, if `keys` is not empty, or if there are no other
+/// numbers. If `keys` is not empty, only numbers with is_meant() keys are returned.
 std::vector<KeyedNumber> numbers_of(const Report& report, const std::vector<std::string>& keys,
                                     bool curves);
 

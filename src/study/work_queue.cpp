@@ -19,7 +19,7 @@ std::vector<UnitRange> missing(std::span<const UnitRange> done, UnitRange range)
 }
 
 SetCost set_cost(const Sweep& sweep, const Cell& cell) {
-    constexpr double once = 2e-5;  // seconds, at least, for a set and for a measure
+    constexpr double once = 2e-5;  // seconds that each set and each measure takes at least
     const auto& generator = *sweep.generators()[cell.generator].unit;
     const auto n = static_cast<double>(cell.count);
     const auto d = static_cast<double>(cell.dimension);
@@ -43,7 +43,7 @@ WorkQueue::WorkQueue(const Sweep& sweep, std::vector<UnitRange> done, std::size_
         cells_.push_back(c);
     }
     take_out(done_, std::nullopt);
-    early_ = workers == 1 ? HUGE_VAL : 0.05 * seconds_left();  // delays the end by less than this
+    early_ = workers == 1 ? HUGE_VAL : 0.05 * seconds_left();  // limits the delay of the end
     sort();
 }
 
@@ -64,7 +64,7 @@ WorkQueue::Piece WorkQueue::piece_of(std::uint64_t index) const {
     const double set = cost.all() * measured_ratio(work_[index]);
     const std::uint64_t measures = sweep_.measures().size();
     const std::uint64_t seeds = sweep_.request().seeds;
-    if (!sweep_.seeded(cell.generator)) {  // one set for all seeds, but many rows
+    if (!sweep_.seeded(cell.generator)) {  // one set serves all seeds
         constexpr std::uint64_t most_sets = 1 << 16;
         return {measures * std::min(seeds, most_sets), set};
     }
@@ -80,8 +80,8 @@ void WorkQueue::sort() {
     constexpr double pieces_of_worker = 32;
     grain_ = std::clamp(seconds_left() / (pieces_of_worker * workers_), shortest, longest);
     pieces_left_ = 0;
-    // Sort keys. Early pieces: n d, so that all generators begin with the same sizes of sets. Later
-    // pieces: the seconds of a cell's next piece if they are above grain_, else 0.
+    // Sort keys of cells. While pieces are early: n d, so that all generators begin with sets of
+    // the same sizes. Later: the seconds of the cell's next piece if above grain_, else 0.
     std::vector<double> sizes(work_.size());
     for (const std::uint64_t cell : cells_) {
         const Piece piece = piece_of(cell);
@@ -142,7 +142,7 @@ void WorkQueue::take_out(std::span<const UnitRange> ranges, std::optional<double
             const std::uint64_t index = first / per_cell;
             const std::uint64_t last = std::min(end, (index + 1) * per_cell);
             const Cell cell = sweep_.cell(index);
-            // A range that begins or ends inside a set counts as a fraction of it.
+            // A range that contains only some units of a set counts as a fraction of the set.
             const bool seeded = sweep_.seeded(cell.generator);
             const double sets = static_cast<double>(last - first) /
                                 static_cast<double>(seeded ? sweep_.measures().size() : per_cell);

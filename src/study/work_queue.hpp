@@ -82,13 +82,13 @@ class WorkQueue {
     const Sweep& sweep_;
     std::vector<UnitRange> done_;
     double workers_;
-    double early_ = 0;  ///< modelled seconds of pieces that may still be pulled shortest first
+    double early_ = 0;  ///< modelled seconds of work left in the early phase, shortest pieces first
     double grain_ = 0;  ///< seconds that a piece should take
     double ahead_ = 0;  ///< seconds of the short pieces pulled, minus those of the long ones
     std::vector<CellWork> work_;
     CellWork all_;                      ///< `finished` and `spent` of all cells
-    std::vector<std::uint64_t> cells_;  ///< cells with units left; the last one is next, or longest
-    std::size_t within_grain_ = 0;      ///< number of first cells_ with pieces of at most grain_
+    std::vector<std::uint64_t> cells_;  ///< cells with units left, in the order of sort()
+    std::size_t within_grain_ = 0;      ///< number of cells, first in cells_, with short pieces
     std::uint64_t pieces_left_ = 0;
     std::uint64_t finished_ = 0;  ///< number of finished pieces
 };
