@@ -54,7 +54,7 @@ class MarginalLine final : public LineDistribution {
     }
 
     /// xi = 0 and 1 map to the ends of the support, if these and the density there are finite.
-    /// Rounding of other xi reaches an end only if its density is finite and above 0.
+    /// Images of other xi round to an end only if the density there is finite and above 0.
     void forward_all(std::span<double> numbers) const {
         if (discrete_) return law_->quantiles(numbers);
         std::array<double, 256> u;
@@ -96,8 +96,8 @@ class MarginalLine final : public LineDistribution {
         return {mean, variance == 0 && law_->outcomes() != 1 ? unknown : variance,
                 lost ? unknown : third};
     }
-    /// On an unbounded side, cuts off a probability of exp(-10) = 4.5e-5, but shows at most 6 times
-    /// the width of the middle two thirds.
+    /// An unbounded side ends where the probability beyond is exp(-10) = 4.5e-5, but at most 6
+    /// times the width of the middle two thirds away from them.
     std::pair<double, double> range() const override {
         constexpr double beyond = 4.5399929762484854e-5;
         constexpr double sixth = 1 / 6.0;
@@ -128,8 +128,8 @@ class MarginalLine final : public LineDistribution {
     }
 
   private:
-    /// Whether the end x of the support is infinite, or is the end of a discrete distribution's
-    /// table, where probabilities are below 1e-9 of the median's.
+    /// Whether the end x of the support is infinite or, for a discrete distribution, has a
+    /// probability below 1e-9 of the median's: its table of outcomes was cut off there.
     bool has_thin_end(double x) const {
         return std::isinf(x) ||
                (discrete_ && law_->density(x) < 1e-9 * law_->density(law_->quantile(0.5)));

@@ -5,11 +5,11 @@
 //
 //     struct Method {
 //         std::array<double, m> forward(const std::array<double, d>& xi) const;
-//         std::array<double, d> inverse(std::span<const double> point) const;   // if it is not the
+//         std::array<double, d> inverse(std::span<const double> point) const;   // if not the
 //                                                                               // domain's to_cube
-//         static constexpr const char* no_way_back;                             // if there is none
-//         bool keeps(const std::array<double, d>& xi) const;                    // if it drops some
-//         double density(std::span<const double> point) const;                  // if its own
+//         static constexpr const char* no_way_back;                             // no inverse: why
+//         bool keeps(const std::array<double, d>& xi) const;                    // if it drops any
+//         double density(std::span<const double> point) const;                  // if not domain's
 //     };
 //
 // If a domain has several methods, those with the domain's own density need no density().
@@ -56,9 +56,9 @@ std::array<double, d> row_of(std::span<const double> rows, std::size_t i) {
 inline constexpr std::size_t rows_at_once = 128;
 
 // Takes the method by value: writes to the image cannot alias it, so its constants stay in
-// registers. All calls are inlined, since a call would prevent vectorization of the loop. Points go
-// through columns; otherwise compilers would vectorize each coordinate separately, and compute
-// three times what three coordinates share.
+// registers. All calls are inlined, since a call would prevent vectorization of the loop. Images
+// are collected in `columns` first; without that, compilers would vectorize each coordinate
+// separately, and repeat for each one the computations that all coordinates share.
 template <class Method>
 STIPPLE_WIDE [[gnu::flatten]] void map_rows(const Method method, std::span<const double> cube,
                                             std::span<double> image) {

@@ -67,8 +67,8 @@ class Oriented final : public Mapping {
     std::vector<Place> places_;
 };
 
-/// Reorders and reflects the unit coordinates. `order` has for each position k for xi_k, or -k for
-/// 1 - xi_k. @throws Error(usage) unless it names each coordinate once
+/// Mapping with reordered unit coordinates: its i-th one is xi_k if order[i] is k, and 1 - xi_k if
+/// order[i] is -k, with k from 1. @throws Error(usage) unless each k appears once in `order`
 std::unique_ptr<Mapping> oriented(std::unique_ptr<Mapping> mapping, std::span<const double> order) {
     const std::size_t d = mapping->cube_dimension();
     std::vector<double> named(order.size());

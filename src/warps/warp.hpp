@@ -63,7 +63,7 @@ class Mapping {
     /// @throws Error(usage) if there is none; Error(input) naming a point outside the domain
     virtual void inverse(std::span<const double> image, std::span<double> cube) const;
 
-    /// Whether the density differs from the domain's, deliberately or by a table's tolerance.
+    /// Whether density() differs from the domain's, deliberately or by the error of a table.
     [[nodiscard]] virtual bool biased() const { return false; }
 
     /// Density of the image of a uniform point with respect to the domain's measure: the domain's
@@ -105,12 +105,12 @@ struct WarpRequest {
 
 struct WarpTraits {
     bool invertible = true;
-    bool drops = false;            ///< some options drop points
-    bool refills = false;          ///< replaces dropped points: sets are as large as requested
-    bool biased = false;           ///< some options are deliberately wrong; their help says so
-    bool tabulated = false;        ///< points follow a table's density, which is near the domain's
-    bool needs_whole_set = false;  ///< with some options, mappings have a set_step()
-    bool discrete = false;         ///< points are outcomes with probabilities, and have no density
+    bool drops = false;      ///< some options drop points
+    bool refills = false;    ///< replaces dropped points, so that sets are as large as requested
+    bool biased = false;     ///< some options are deliberately wrong; their help says so
+    bool tabulated = false;  ///< points follow a table that approximates the domain's density
+    bool needs_whole_set = false;  ///< mappings have a set_step() for some options
+    bool discrete = false;         ///< points are outcomes, with probabilities instead of a density
 };
 
 struct Warp {
@@ -118,7 +118,7 @@ struct Warp {
     std::string summary;
     std::string source;
     std::string family = {};  ///< family name, set by the registry from the folder
-    /// Search words such as its kind or uses; not names of other analyzers, warps or generators.
+    /// Search words: kind, uses; no names of other analyzers, warps or generators.
     std::vector<std::string> related = {};
     std::string strata;  ///< images of the strata, and whether xi or 1 - xi is used
     WarpTraits traits = {};
@@ -130,9 +130,9 @@ struct Warp {
 
     std::function<std::unique_ptr<Mapping>(const WarpRequest&)> mapping;
 
-    /// Reads the domain of a warp that a file describes; the domain's spec is the warp's, with the
-    /// contents of the file. Empty for other warps. @throws Error(input) naming the position in the
-    /// file; Error(io)
+    /// For warps described by a file: reads their domain from it. The domain's spec is the warp's,
+    /// with the contents of the file. Empty for other warps. @throws Error(input) naming the
+    /// position in the file; Error(io)
     std::function<DomainPtr(const std::string& path, const RunContext& run)> read = {};
 
     /// Makes the mapping for these options. `given` is the number of available coordinates; warps
@@ -144,7 +144,7 @@ struct Warp {
 
 namespace warps {
 
-/// Option of warps that other programs define with the angle first, or from another corner.
+/// Option of warps that other programs define with other orders or directions of xi.
 inline constexpr Param<Numbers> orientation{
     {.name = "orientation",
      .help = "Order in which the unit coordinates are used, with a minus sign for 1 - xi: 2,1 "

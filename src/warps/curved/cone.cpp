@@ -68,13 +68,13 @@ class ConeDomain final : public NamedDomain {
 
     double measure() const override { return 2 * std::numbers::pi * cap_.rim_minus(); }
 
-    /// Allows 8 epsilon in the length and beyond the rim, for rounding. Thin cones about z allow
-    /// only 8 epsilon times the rim's distance from the axis beyond the rim.
+    /// Allows rounding errors of 8 epsilon in the length and beyond the rim. Thin cones about z,
+    /// with a rim at a distance r from the pole, allow only 8 epsilon r beyond the rim.
     bool contains(std::span<const double> point) const override {
         const auto [x, y, z] = cap_.frame.in(vector_of(point));
         const double rr = x * x + y * y;
         if (!(std::abs(std::sqrt(rr + z * z) - 1) <= slack)) return false;
-        // Tests straight-line distances from the pole that is nearer to the rim.
+        // Compares the point's and the rim's straight-line distances from the pole next to the rim.
         if (cap_.half.sin <= cap_.half.cos)
             return std::sqrt(rr + (z - 1) * (z - 1)) <= 2 * cap_.half.sin + rim_slack_;
         return std::sqrt(rr + (z + 1) * (z + 1)) >= 2 * cap_.half.cos - slack;

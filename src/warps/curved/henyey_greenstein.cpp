@@ -53,7 +53,7 @@ struct Phase {
         return {v < c ? 1 - small : small - 1, std::sqrt(small * (2 - small))};
     }
 
-    /// sqrt(1 + g^2 - 2 g cos theta): the distance from g times the axis to the direction.
+    /// sqrt(1 + g^2 - 2 g cos theta). @param v, c 1 - cos theta and 1 + cos theta
     double distance(double v, double c) const {
         const double square = g > 0 ? (1 - g) * (1 - g) + 2 * g * v : (1 + g) * (1 + g) - 2 * g * c;
         return std::sqrt(square);

@@ -45,8 +45,8 @@ class SphericalDomain final : public NamedDomain {
     using Cells = std::function<std::array<double, 2>(std::span<const double>)>;
 
     /// @param corners in order, in either direction; unit vectors, neighbours distinct
-    /// @param inward unit normals of the planes of the edges after each corner; empty: computed
-    /// from the corners, whose neighbours must not be antipodal
+    /// @param inward for each corner, the inward unit normal of the plane of the edge that starts
+    /// there; empty: computed from the corners, whose neighbours must not be antipodal
     /// @param cells map to the cube for to_cube(), instead of the inverse of the warp
     /// @param slack tolerance for rounding: distance beyond an edge's plane, and |length - 1|
     SphericalDomain(std::string spec, std::vector<Vector3> corners, std::vector<Vector3> inward,

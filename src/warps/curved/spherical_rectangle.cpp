@@ -65,7 +65,7 @@ struct Rectangle {
     Frame frame;
     double x0, x1, y0, y1, z;
 
-    /// Direction of the point (x, y) of its plane, as a unit vector in space.
+    /// Direction of the point (x, y) of the rectangle's plane, as a unit vector in space.
     Vector3 towards(double x, double y) const { return normalized(frame.out({x, y, z})); }
 
     std::vector<Vector3> corners() const {
@@ -169,15 +169,15 @@ class Urena {
         const double g0 = x > 0 ? r0 + x : w0_ * w0_ / (r0 - x);
         const double g1 = x > 0 ? r1 + x : w1_ * w1_ / (r1 - x);
         if (m >= 0) return turns_of(w0_ * w0_ * (w1_ * w1_) + g0 * g1 * m, g0 * g1 * n);
-        // For m < 0, w0 w1 + m loses digits; it is n^2 / (w0 w1 - m), as (w0 w1)^2 = m^2 + n^2.
+        // For m < 0, w0 w1 + m loses digits; n^2 / (w0 w1 - m) is equal, as (w0 w1)^2 = m^2 + n^2.
         const double more0 = x * (g0 + w0_) / (r0 + w0_);  // g0 - w0
         const double more1 = x * (g1 + w1_) / (r1 + w1_);
         const double sum = (more0 * g1 + w0_ * more1) + n * n / (w0_ * w1_ - m);
         return turns_of(m * sum + n * n, g0 * g1 * n);
     }
 
-    /// H from G, or G from H, whose sum is pi - low - high. Replaces an angle above pi / 2, since
-    /// its sine loses digits near pi, where o is almost above the rectangle.
+    /// Returns H if p is G, and G if p is H: H + G = pi - low - high. Used for angles above pi / 2,
+    /// because sines lose digits near pi, where o is almost above the rectangle.
     CosSin rest_of(const CosSin& p) const {
         return {p.sin * both_.sin - p.cos * both_.cos, p.sin * both_.cos + p.cos * both_.sin};
     }

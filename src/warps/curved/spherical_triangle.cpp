@@ -18,7 +18,7 @@
 // Cost    O(1) a point; on one core about 11 ns forward, 46 ns inverse.
 // Promise density 1 / A. Directions lie in the triangle up to the rounding stated at slack_of(). A
 //         round trip returns the same direction within 1e-14; for near-hemispheres, within 1e-14
-//         divided by the distance stated there. The same bits on every machine.
+//         divided by the smallest from_opposite(). The same bits on every machine.
 // Source  J. Arvo, "Stratified sampling of spherical triangles", SIGGRAPH 95, 437-438,
 //         doi:10.1145/218380.218500.
 
@@ -77,8 +77,8 @@ class Arvo {
     std::array<double, 2> inverse(std::span<const double> point) const {
         const Vector3 way = minus(vector_of(point), b_);
         const Vector3 plane = cross(b_, way);
-        // x, y: cos q and sin q times a common length, for the point c' where the plane through b
-        // and w meets the edge ac.
+        // x and y are cos q and sin q, times a common length, for the point c' on the edge ac that
+        // is in one plane with b and w.
         const double x = 0 - turn_ * dot(plane, to_c_);
         const double y = std::max(0.0, 0 - turn_ * dot(plane, ab_));
         if (x * x + y * y == 0) return {0, 0};  // the direction is b

@@ -53,7 +53,7 @@ constexpr auto minor_radius =
 /// E - sin E for E in [0, pi], without loss of digits.
 inline double less_sine(double angle, double sine) {
     const double z = angle * angle;
-    // -1/15!, 1/13!, -1/11!, ...
+    // coefficients -1/15!, 1/13!, -1/11!, ..., -1/3!
     const double sum = horner(z, -1 / 1307674368000.0, 1 / 6227020800.0, -1 / 39916800.0,
                               1 / 362880.0, -1 / 5040.0, 1 / 120.0, -1 / 6.0);
     const double series = 0 - angle * z * sum;

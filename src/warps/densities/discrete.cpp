@@ -188,7 +188,7 @@ ByAlias::ByAlias(const Values& options) : Outcomes(options) {
         small.push_back(l);
     }
     for (const std::uint32_t i : large) share[i] = 1;
-    for (const std::uint32_t i : small) {  // below 1 only by rounding
+    for (const std::uint32_t i : small) {  // only rounding left these below 1
         if (weight[i] > 0)
             share[i] = 1;
         else

@@ -120,7 +120,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
         fail(ErrorKind::usage, "--density: no formula given; expected one in x, such as 'exp(-x)'");
     const LineRange ends = range_of(want.options);
     Expression f(density.name, want.options[density], 1);
-    Values plain = want.options;  // takes f.text(), which has no blanks
+    Values plain = want.options;  // the spec shows the formula without blanks
     plain.put(density.name, f.text());
     const auto law =
         std::make_shared<const ByFormula>(std::move(f), ends, want.options[tolerance], want.run);

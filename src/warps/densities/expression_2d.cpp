@@ -70,7 +70,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
              "--density: no formula given; expected one in x and y, such as 'x + y'");
     const Box box = parse_box(want.options[bounds], 2);
     Expression f(density.name, want.options[density], 2);
-    Values plain = want.options;  // takes f.text(), which has no blanks
+    Values plain = want.options;  // the spec shows the formula without blanks
     plain.put(density.name, f.text());
     const auto domain = std::make_shared<FormulaBox>(
         format_spec(want.warp.name, plain, want.warp.options), std::move(f), box);

@@ -90,7 +90,7 @@ class ImageDomain final : public SquareDomain {
         cube[0] = u;
         cube[1] = v;
     }
-    /// Within a row of pixels, the fraction left of x does not depend on y.
+    /// Sums over the rows of pixels; within a row, the fraction left of x does not depend on y.
     std::optional<Estimate> box_mass(const Box& box) const override {
         const Box part = clipped(box);
         const double left = part.low[0];

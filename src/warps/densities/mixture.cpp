@@ -97,8 +97,8 @@ class MixtureDomain final : public NamedDomain {
         });
     }
 
-    /// Measure of all directions if a component covers them all; of the box if every component
-    /// fills it. Otherwise the union of the components is unknown, and the measure is infinite.
+    /// Measure of the sphere or circle if a component covers it, of the bounding box if every
+    /// component fills it; otherwise infinity, since the union of the components is unknown.
     double measure() const override {
         const auto has_all = [&](const DomainPtr& part) {
             return part->measure() > (1 - 1e-12) * all_directions();
@@ -195,7 +195,7 @@ class MixtureDomain final : public NamedDomain {
     double middle(std::size_t k) const { return box_.low[k] + 0.5 * box_.extent(k); }
     double scale(std::size_t k) const { return box_.extent(k) > 0 ? 0.25 * box_.extent(k) : 1; }
 
-    /// Coordinate k in space of a cell's edge whose cube coordinate is u.
+    /// Coordinate k, in space, of a cell's edge with the cube coordinate u.
     double edge(double u, std::size_t k) const {
         if (u <= 0 || u >= 1)
             return std::copysign(std::numeric_limits<double>::infinity(), u - 0.5);
@@ -211,7 +211,7 @@ class MixtureDomain final : public NamedDomain {
         return sum;
     }
 
-    /// Probability of a zone of directions; domains without a sphere_shape() have zones as cells.
+    /// Probability of a zone of directions; zones are cells also for parts without sphere_shape().
     static Estimate zone_mass(const Domain& part, const Box& cell) {
         const auto shape = part.sphere_shape();
         if (!shape) return part.probability(cell);

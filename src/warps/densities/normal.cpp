@@ -15,8 +15,8 @@
 //         mean, instead of infinity; a note reports it. Other values below 1e-300 are replaced by
 //         1e-300.
 // Cost    O(1) a coordinate without a covariance, about 6 ns on one core; O(d) with one.
-// Promise a round trip returns the same xi within 1e-14, in the lower tail within a relative 1e-13
-//         (2e-15 z^2, below z = -7); with a covariance, times the square root of its condition
+// Promise a round trip returns the same xi within 1e-14, in the lower tail within a relative 1e-13,
+//         or 2e-15 z^2 if z < -7; with a covariance, times the square root of its condition
 //         number. Forward map, inverse and density give the same bits on every machine.
 // Source  M. Rosenblatt, Annals of Mathematical Statistics 23 (1952) 470-472,
 //         doi:10.1214/aoms/1177729394. Phi^-1: Wichura 1988, see

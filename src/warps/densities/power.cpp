@@ -7,8 +7,8 @@
 //
 // k = 2 on [-1, 1] is the density 3 x^2 / 2 and the map x = cbrt(2 xi - 1).
 //
-// On one side of 0, the power is measured from the end with the larger |x|^p, whose magnitude is e.
-// The other end has magnitude o; r = (o / e)^p < 1, and w is the probability between x and e:
+// If the interval is on one side of 0, e is the magnitude of the end with the larger |x|^p, o that
+// of the other end, r = (o / e)^p < 1, and w the probability between x and the end e:
 //
 //     |x| = e (1 - w (1 - r))^(1/p) = e exp(log1p(w expm1(p log(o / e))) / p),
 //
@@ -62,7 +62,7 @@ template <Root root>
     if constexpr (root == Root::none) return y;
     if constexpr (root == Root::square) return std::sqrt(y);
     if constexpr (root == Root::cube) return cube_root(y);
-    // The error is |log x| units in the last place, at most 40, which is accurate enough here.
+    // The error is at most 40 units in the last place, which is accurate enough here.
     const double root_of_y = stipple::exponential(logarithm(y) * inverse_p);
     return y > 0 ? root_of_y : 0;
 }
@@ -97,8 +97,8 @@ struct PowerLaw : LineDistribution, Interval {
     LineMoments moments() const override;
 
   private:
-    /// E |x / unit|^n times a constant, where s = p + n, for an interval on one side of 0. The
-    /// interval's ends are 1 and `other` times `unit`.
+    /// E |x / unit|^n up to a factor that does not depend on n; s = p + n. For an interval on one
+    /// side of 0 with the ends `unit` and `other` times `unit`.
     static double one_sided_sum(double s, double other) {
         if (other == 0) return 1 / s;
         const double log = logarithm(other);
@@ -110,7 +110,7 @@ struct PowerLaw : LineDistribution, Interval {
     LineMoments narrow_moments() const;
 };
 
-/// Uses quadrature, for ends so close to each other that powers would lose digits.
+/// Moments by quadrature, for ends so close to each other that powers would lose digits.
 LineMoments PowerLaw::narrow_moments() const {
     const double middle = 0.5 * (a + b);
     const auto sum = [&](std::size_t n, double about) {

@@ -14,7 +14,7 @@
 // Cost    one evaluation of f per point, about 100 ns.
 // Promise exact for any f below the bound. A value above the bound is an error that reports the
 //         point and the value. density() is f over its integral by quadrature.
-// Beware  f above the bound goes unnoticed if no point falls where it is above.
+// Beware  values of f above the bound go unnoticed if no point falls there.
 // Source  J. von Neumann, "Various techniques used in connection with random digits", NBS Applied
 //         Mathematics Series 12 (1951) 36-38.
 
@@ -88,7 +88,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
              "--density: no formula given; expected one such as 'exp(-x*x - y*y)'");
     const Box box = formula_bounds(want.options[bounds], 3);
     Expression f(density.name, want.options[density], box.dimension());
-    Values law = want.warp.options.defaults();  // the density's options, without the method's bound
+    Values law = want.warp.options.defaults();  // the domain's spec leaves out --bound
     law.put(density.name, f.text());
     law.put(bounds.name, want.options[bounds]);
     return std::make_unique<Rejection>(

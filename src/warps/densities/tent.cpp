@@ -47,7 +47,7 @@ struct Tent final : LineDistribution {
 
     double r;
     double c;
-    /// Largest |x - c| / r for xi in (0, 1): rounding of x then stays inside the box.
+    /// Upper limit for |x - c| / r, if xi is not 0 or 1, so that rounding keeps x inside the box.
     double most = 1 - 2 * epsilon * (1 + std::abs(c) / r);
 
     /// Only u = 0 and 1 map to the rim, where the density is 0.

@@ -5,8 +5,8 @@
 //     the first k with p(0) + ... + p(k) > xi,    p(k) = n! / (k! (n-k)!) p^k (1-p)^(n-k)
 //
 // Shape   any number of coordinates; each parameter is one number for all of them, or one for each.
-// Strata  xi is used directly, and outcomes are in order: among n strata, an outcome of probability
-//         p occurs n p times, rounded up or down.
+// Strata  xi is used directly, and outcomes are in order: among m strata, the outcome k occurs
+//         m p(k) times, rounded up or down.
 // Cost    O(1) a coordinate on average, with a guide table; about 5 ns on one core. The table has
 //         at most 75 sqrt(n p (1 - p)) outcomes, or n + 1.
 // Promise the bounds of outcomes' intervals are accurate to the last digit, measured from either

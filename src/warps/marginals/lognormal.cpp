@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto the half-line x > 0, each coordinate independently, by inversion:
+// Unit cube onto the half-line x >= 0, each coordinate independently, by inversion:
 //
 //     x = exp(mu + sigma Phi^-1(xi)),    density exp(-z^2 / 2) / (sigma x sqrt(2 pi))
 //
@@ -10,7 +10,7 @@
 //         log(1 + (s / m)^2), mu = log m - sigma^2 / 2; each is one number for all coordinates, or
 //         one for each.
 // Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability, in
-//         order. The first and the last are unbounded; 0 is replaced by 2^-54 and 1 by 1 - 2^-55.
+//         order. xi = 0 maps to 0. The last stratum is unbounded; xi = 1 is replaced by 1 - 2^-55.
 // Cost    O(1) a coordinate; about 15 ns on one core.
 // Promise x within a relative 1e-15 (1 + |log x|). The same bits on every machine.
 

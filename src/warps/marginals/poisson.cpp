@@ -5,8 +5,8 @@
 //     the first k with p(0) + ... + p(k) > xi,    p(k) = mean^k exp(-mean) / k!
 //
 // Shape   any number of coordinates; each parameter is one number for all of them, or one for each.
-// Strata  xi is used directly, and outcomes are in order: among n strata, an outcome of probability
-//         p occurs n p times, rounded up or down.
+// Strata  xi is used directly, and outcomes are in order: among n strata, the outcome k occurs
+//         n p(k) times, rounded up or down.
 // Cost    O(1) a coordinate on average, with a guide table; about 5 ns on one core. The table has
 //         75 sqrt(mean) outcomes, at least 150 or so.
 // Promise the bounds of outcomes' intervals are accurate to the last digit, measured from either

@@ -14,8 +14,8 @@
 // Cost    that of the distribution, plus about 15 ns a coordinate on one core.
 // Promise x in [a, b]. For continuous distributions the interval must have a probability above
 //         1e-290; discrete ones are cut exactly. The same bits on every machine.
-// Beware  x is accurate relative to the interval, not to its ends: to 1e-15 of the width. If the
-//         interval's probability is only s times that beyond its ends, x is accurate to 1e-16 / s
+// Beware  errors of x are relative to the interval's width, not to x: up to 1e-15 of the width or,
+//         if s is the ratio of the probability in the interval to that beyond it, up to 1e-16 / s
 //         of the width.
 
 #include <algorithm>

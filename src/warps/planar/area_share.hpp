@@ -13,9 +13,9 @@
 
 namespace stipple::warps {
 
-/// @param shared returns the area of the shape within a box. The box is given by its corners,
-/// counterclockwise from the lower left one, and is inside the shape's bounding box. For shapes far
-/// from 0, the result's error is the rounding of coordinates.
+/// @param shared returns the area of the shape within a box inside the shape's bounding box. Its
+/// argument is the polygon of the box's corners, counterclockwise from the lower left one.
+/// @return with error 0 or, for shapes far from 0, the error by rounding of coordinates
 template <class Shared>
 Estimate area_share(const Box& box, const Domain& shape, const Shared& shared) {
     const Box around = shape.bounding_box();
@@ -32,7 +32,7 @@ Estimate area_share(const Box& box, const Domain& shape, const Shared& shared) {
     const double area =
         shared(Polygon{{low[0], low[1]}, {high[0], low[1]}, {high[0], high[1]}, {low[0], high[1]}});
     const double share = std::clamp(area / shape.measure(), 0.0, 1.0);
-    // A shape nearer to 0 than this multiple of its extent counts as exact, despite rounding.
+    // Within this many extents of the shape from 0, rounding of coordinates is neglected.
     constexpr double near = 16;
     return {share, far > near ? 8 * std::numeric_limits<double>::epsilon() * far : 0};
 }

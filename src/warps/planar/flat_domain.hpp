@@ -46,7 +46,7 @@ class FlatDomain : public NamedDomain {
         return box;
     }
 
-    /// Requires a shape in the plane.
+    /// Call only for a shape in the plane, not in space.
     std::optional<Estimate> box_mass(const Box& box) const final {
         return area_share(box, *this, [&](const Polygon& window) {
             Polygon shape;
@@ -63,7 +63,7 @@ class FlatDomain : public NamedDomain {
 
     Table corners_;
     EdgeFrame frame_;
-    /// Heights of the parallelogram along s and t, and of corner 0 above the diagonal.
+    /// Heights of the parallelogram over s = 0 and t = 0, and of corner 0 over the diagonal.
     std::array<double, 3> heights_;
 };
 

@@ -16,8 +16,8 @@
 // Strata  xi0 and xi1 are used directly, not as 1 - xi: an N W x N H grid of strata is N x N in
 //         each pixel.
 // Cost    O(1) a point; about 1 ns forward (7 with --pixel), 7 ns inverse on one core.
-// Promise density 1 / (W H), with --pixel 1. For xi below 1, never x = W, y = H or the next pixel's
-//         corner: sums are rounded towards the corner. A round trip returns the same point.
+// Promise density 1 / (W H), with --pixel 1. For xi below 1, x < W, y < H and points stay in
+//         their pixel: sums are rounded towards its corner. A round trip returns the same point.
 
 #include <cmath>
 

@@ -10,7 +10,7 @@ namespace {
 double turn_of_degrees(double degrees) {
     const double turns = degrees / 360;
     const double rest = turns - std::floor(turns);
-    return rest < 1 ? rest : 0;  // just below a whole turn, the difference rounds to 1
+    return rest < 1 ? rest : 0;  // just below an integer, the difference rounds to 1
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ struct Trapezoid {
     std::size_t top;
 };
 
-/// Sweeps a horizontal row upwards: keeps the edges that it meets, collects the trapezoids between.
+/// Sweeps a row upwards: keeps the edges that it meets, collects the trapezoids between them.
 class TrapezoidSweep {
   public:
     TrapezoidSweep(std::span<const UpwardEdge> edges, std::span<const double> heights)
@@ -124,7 +124,7 @@ class TrapezoidSweep {
 /// fraction f of a slab's area at that end. The longer of the lengths w0 and w1 must be 1.
 double height_share(double f, double w0, double w1) {
     const double root = std::sqrt((1 - f) * w0 * w0 + f * w1 * w1);
-    const double null = f == 0;  // avoids 0 / 0 if w0 = 0, too
+    const double null = f == 0;  // avoids 0 / 0 if f and w0 are 0
     return f * (w0 + w1) / (w0 + root + null);
 }
 
@@ -213,13 +213,13 @@ void PolygonDomain::cut_bands(const RunContext& run) {
         }
     }
     std::ranges::sort(pieces, [](const Piece& a, const Piece& b) {
-        const auto sum = [](const Part& p) {  // increases from left to right
+        const auto sum = [](const Part& p) {  // larger for parts further right
             return 0.5 * (p.left_bottom + p.left_top) + 0.5 * (p.right_bottom + p.right_top);
         };
         return a.node != b.node ? a.node < b.node : sum(a.part) < sum(b.part);
     });
 
-    std::vector<std::size_t> lowest(2 * leaves, none);  // lowest band at each node or an ancestor
+    std::vector<std::size_t> lowest(2 * leaves, none);  // band at the node or its nearest ancestor
     auto piece = pieces.begin();
     for (std::size_t node = 1; node < 2 * leaves; ++node) {
         lowest[node] = lowest[node / 2];
@@ -344,8 +344,8 @@ std::size_t PolygonDomain::Cut::left_of(double x, std::size_t low, std::size_t h
     return static_cast<std::size_t>(past - parts);
 }
 
-/// Position in a row at the distance `way` along its parts. Searches the last part with at most
-/// `way` of the row to its left; each step tests the middle of the longest remaining list.
+/// The x where the parts of a row, from the left, have the length `way`. Searches the last part
+/// with at most `way` to its left; each step halves the list with the most remaining parts.
 double PolygonDomain::along_row(const Row& row, double way) {
     std::array<std::size_t, most_bands> low;
     std::array<std::size_t, most_bands> high;
@@ -377,7 +377,7 @@ double PolygonDomain::along_row(const Row& row, double way) {
         low = middle;
         ++low[longest];
         const double end = part.right(cut.t);
-        if (!(x > left || end > right)) continue;  // a part of length 0, where another part begins
+        if (!(x > left || end > right)) continue;  // keeps the longer of two parts that begin at x
         left = x;
         right = end;
         passed = before;
@@ -402,7 +402,7 @@ void PolygonDomain::to_cube(std::span<const double> point, std::span<double> cub
     cube[1] = place_in_row(row_at(slab, y), p.x);
 }
 
-/// The part of a row nearest to x; the leftmost one if several parts are equally near.
+/// Part of a row that is nearest to x; the leftmost one if several parts are equally near.
 PolygonDomain::Nearest PolygonDomain::nearest_part(const Row& row, double x) {
     Nearest nearest;
     for (const Cut& cut : row.all()) {
@@ -432,7 +432,7 @@ double PolygonDomain::place_in_row(const Row& row, double x) {
                         after >= width ? 2 * width : after);
 }
 
-/// Distance of the point from the slab's parts, along its row.
+/// Horizontal distance of the point from the nearest part of the slab; 0 inside.
 double PolygonDomain::gap(const Slab& slab, PlanePoint p) const {
     return nearest_part(row_at(slab, std::clamp(p.y, slab.bottom, slab.top)), p.x).gap;
 }

@@ -21,7 +21,7 @@
 // Shape   any number of rings, any orientation. Coordinates within [-1e150, 1e150].
 // Cost    O(n log n) time and memory. Per point on average O(1) for the slab; O(1) for the position
 //         along the row if it has one part, at most O(log(n)^3).
-// Promise round trips return (u, v) within some epsilon, if L(y) > 0, and the point within epsilon
+// Promise round trips return (u, v) within a few epsilon, if L(y) > 0, and the point within epsilon
 //         A / L(y) along y. Images lie in the closed region, up to slack(). Same bits on every
 //         machine.
 #pragma once
@@ -91,7 +91,7 @@ class PolygonDomain final : public NamedDomain {
         double top;
         std::size_t first;  ///< index of the band's first part in parts_
         std::size_t last;
-        std::size_t above;  ///< index of the next band towards the root, or `none`
+        std::size_t above;  ///< index of the next band on the path to the root; or none
     };
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
     struct Slab {

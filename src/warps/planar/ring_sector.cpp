@@ -53,7 +53,7 @@ std::vector<PlanePoint> RingSector::hull(double turn) const {
         points.push_back({c, s});
         points.push_back({inner * c, inner * s});
     }
-    for (int quarter = 0; quarter < 8; ++quarter) {  // the extreme points along the axes
+    for (int quarter = 0; quarter < 8; ++quarter) {  // points extreme along an axis, after the turn
         const double angle = 0.25 * quarter - turn;
         if (angle < 0 || angle > width) continue;
         const auto [c, s] = cos_sin_turns(angle);

@@ -37,7 +37,7 @@ struct RingSector {
         const double square = x * x + y * y;
         const double r = std::sqrt(square);
         const double angle = turns_of(x, y);
-        // Rounding may move a point of the first side backwards, to almost a full turn.
+        // A point of the side at angle 0 may be rounded to an angle of almost a full turn.
         const double wrapped = 0.5 * (1 + width) < angle;
         const double share = (r - inner) * (r + inner) / spread;
         return {inner > 0 ? share : square, (angle - wrapped) / width};

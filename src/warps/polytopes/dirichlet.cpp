@@ -157,7 +157,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
         if (!(a >= 0.1 && a <= 1e6)) fail(ErrorKind::usage, "--alpha: {} is outside [0.1, 1e6]", a);
     if (!(std::accumulate(parameters.begin(), parameters.end(), 0.0) <= 1e6))
         fail(ErrorKind::usage, "--alpha: the sum is above 1e6");
-    Values plain = want.options;  // all alphas, since their number fixes the dimension
+    Values plain = want.options;  // lists every alpha, as their number is the dimension
     plain.put(alpha.name, parameters);
     return domain_mapping<DirichletDomain>(std::move(parameters),
                                            format_spec(want.warp.name, plain, want.warp.options));

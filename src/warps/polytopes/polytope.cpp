@@ -11,7 +11,7 @@
 //
 // Shape   as many coordinates as --bounds has ranges, or as are given; inequalities may couple up
 //         to 12, with up to 200000 faces and 10000 vertices.
-// Strata  of a coordinate in no inequality: xi is used directly. Among d coupled ones, the first xi
+// Strata  a coordinate in no inequality uses its xi directly. Among d coupled ones, the first xi
 //         selects the simplex, and its remainder is the position along the simplex's last edge;
 //         each other xi determines the weight of one vertex and is 0 at this vertex. So strata of
 //         the first xi are pieces of adjacent simplices, and strata of several xi are cut where
