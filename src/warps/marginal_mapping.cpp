@@ -87,14 +87,16 @@ class MarginalLine final : public LineDistribution {
         if (endless_.first || endless_.second) return infinity;
         return discrete_ ? law_->outcomes() : ends_.second - ends_.first;
     }
-    /// Moments; NaN if outside the range of doubles, unless there is only one outcome.
+    /// Moments; the variance is NaN if it is too small for a double, unless there is only one
+    /// outcome.
     LineMoments moments() const override {
         constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+        constexpr double least = std::numeric_limits<double>::min();
         const auto [mean, variance, skewness] = law_->moments();
-        const double third = skewness * variance * std::sqrt(variance);
-        const bool lost = skewness != 0 && !(std::abs(third) >= 1e-300);
-        return {mean, variance == 0 && law_->outcomes() != 1 ? unknown : variance,
-                lost ? unknown : third};
+        if (variance < least && law_->outcomes() != 1) return {mean, unknown, unknown};
+        const double unit = unit_for(std::sqrt(variance));
+        const double own = variance / unit / unit;
+        return {mean, own, skewness * own * std::sqrt(own), unit};
     }
     /// An unbounded side ends where the probability beyond is exp(-10) = 4.5e-5, but at most 6
     /// times the width of the middle two thirds away from them.

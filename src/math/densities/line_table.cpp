@@ -58,6 +58,8 @@ class LineTabulator {
         if (!(mass > 0))
             fail(ErrorKind::usage, "{} is 0 at all points tried from {} to {}", what_, range.low,
                  range.high);
+        sum_all();
+        require_integral(what_, mass_);
         return pieces;
     }
 
@@ -174,7 +176,10 @@ class LineTabulator {
 
     /// Recomputes the sums, because rounding errors from additions and subtractions accumulate.
     void sum_anew() {
-        if (pieces_.size() > 4096 && pieces_.size() % 4096 != 0) return;
+        if (pieces_.size() <= 4096 || pieces_.size() % 4096 == 0) sum_all();
+    }
+
+    void sum_all() {
         error_ = 0;
         mass_ = 0;
         for (const Sampled& piece : pieces_) {
@@ -224,6 +229,15 @@ void require_density(const std::string& what, std::span<const double> place, dou
     const double shown = std::isnan(value) ? std::numeric_limits<double>::quiet_NaN() : value;
     fail(ErrorKind::usage, "{} is {} at {}; a density must be finite and not below 0", what, shown,
          place_text(place));
+}
+
+void require_integral(const std::string& what, double integral) {
+    if (integral >= 1e-280 && integral <= 1e280) return;
+    fail_with_hint(
+        ErrorKind::usage, "multiply the formula by a factor, or choose another unit",
+        "{}: the integral is about {:.3g}; expected one in [1e-280, 1e280], since others "
+        "lose digits",
+        what, integral);
 }
 
 double largest_bend(const std::array<double, 5>& f) {
@@ -285,8 +299,11 @@ double LineTable::density(double x) const {
 }
 
 LineMoments LineTable::moments_of(const std::function<double(double)>& f, double mass) const {
+    const double unit = unit_for(pieces_.back().x_high - pieces_.front().x_low);
     const auto expect = [&](double about, std::size_t power) {
-        const auto integrand = [&](double x) { return f(x) * whole_power(x - about, power); };
+        const auto integrand = [&](double x) {
+            return f(x) * whole_power((x - about) / unit, power);
+        };
         double sum = 0;
         for (const LinePiece& piece : pieces_)
             sum += gauss_kronrod(integrand, piece.x_low, piece.x_high).value;
@@ -294,8 +311,8 @@ LineMoments LineTable::moments_of(const std::function<double(double)>& f, double
     };
     const double middle =
         pieces_.front().x_low + 0.5 * (pieces_.back().x_high - pieces_.front().x_low);
-    const double mean = middle + expect(middle, 1);
-    return {mean, expect(mean, 2), expect(mean, 3)};
+    const double mean = middle + unit * expect(middle, 1);
+    return {mean, expect(mean, 2), expect(mean, 3), unit};
 }
 
 std::vector<std::pair<double, double>> LineTable::positive_intervals() const {

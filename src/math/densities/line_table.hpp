@@ -12,8 +12,9 @@
 //
 // which solves a quadratic equation without cancellation.
 //
-// Shape   any f that is finite, not negative, and not 0 everywhere. It may have jumps and corners;
-//         the table is faster to make if they are named as breaks.
+// Shape   any f that is finite, not negative, and not 0 everywhere, with an integral within
+//         [1e-280, 1e280]. It may have jumps and corners; the table is faster to make if they are
+//         named as breaks.
 // Cost    about 1 / sqrt(8 tolerance / f'') pieces; O(1) per point on average (guide table).
 // Promise a piece has no mass if f is 0 at a sample inside, so that no point is beyond a jump to 0.
 //         Quantiles increase with u.
@@ -63,6 +64,9 @@ std::vector<LinePiece> tabulate_line(const std::string& what, const BlockFunctio
 
 /// Checks a value of a density. @throws Error(usage) if it is negative or not finite
 void require_density(const std::string& what, std::span<const double> place, double value);
+
+/// Checks that sums and shares of a density's integral lose no digits. @throws Error(usage)
+void require_integral(const std::string& what, double integral);
 
 /// Largest difference of values at 0, 1/4, 1/2, 3/4, 1 from the line between the first and last.
 double largest_bend(const std::array<double, 5>& f);

@@ -121,6 +121,8 @@ class StripTabulator {
         }
         if (!(mass > 0))
             fail(ErrorKind::usage, "{} is 0 at all points tried in {}", what_, format_box(box_));
+        sum_anew();
+        require_integral(what_, mass_);
         return out;
     }
 

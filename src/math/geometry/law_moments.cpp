@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "math/geometry/law_moments.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace stipple {
@@ -11,11 +13,17 @@ Moments sized(std::size_t d) {
     return {std::vector<double>(d), std::vector<double>(d * d), std::vector<double>(d)};
 }
 
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
 double skewness_of(double variance, double third) {
     return variance == 0 ? 0 : third / variance / std::sqrt(variance);
 }
 
 }  // namespace
+
+double unit_for(double length) {
+    return length > 0 && std::isfinite(length) ? std::ldexp(1.0, std::ilogb(length)) : 1;
+}
 
 PlaneMoments about_the_mean(const PlaneMoments& raw) {
     const auto [x, y] = raw.mean;
@@ -81,9 +89,12 @@ Moments independent_moments(std::span<const LineMoments> coordinates) {
     const std::size_t d = coordinates.size();
     Moments m = sized(d);
     for (std::size_t k = 0; k < d; ++k) {
-        m.mean[k] = coordinates[k].mean;
-        m.covariance[k * d + k] = coordinates[k].variance;
-        m.skewness[k] = skewness_of(coordinates[k].variance, coordinates[k].third);
+        const auto& [mean, variance, third, unit] = coordinates[k];
+        m.mean[k] = mean;
+        const double whole = variance * unit * unit;
+        const bool lost = variance > 0 && whole < std::numeric_limits<double>::min();
+        m.covariance[k * d + k] = lost ? unknown : whole;
+        m.skewness[k] = skewness_of(variance, third);
     }
     return m;
 }
@@ -94,50 +105,69 @@ Moments triangle_moments(const std::array<std::vector<double>, 3>& corners) {
     for (std::size_t k = 0; k < d; ++k)
         m.mean[k] = (corners[0][k] + corners[1][k] + corners[2][k]) / 3;
     for (std::size_t k = 0; k < d; ++k) {
-        double third = 0;
+        double most = 0;
+        for (const auto& corner : corners) most = std::max(most, std::abs(corner[k] - m.mean[k]));
+        const double unit = unit_for(most);
+        double square = 0, third = 0;
         for (const auto& corner : corners) {
             const double from = corner[k] - m.mean[k];
-            third += from * from * from / 30;
+            const double own = from / unit;
+            square += own * own / 12;
+            third += own * own * own / 30;
             for (std::size_t j = 0; j < d; ++j)
                 m.covariance[k * d + j] += from * (corner[j] - m.mean[j]) / 12;
         }
-        m.skewness[k] = skewness_of(m.covariance[k * d + k], third);
+        m.skewness[k] = skewness_of(square, third);
     }
     return m;
 }
 
-MixedMoments::MixedMoments(std::vector<double> about)
-    : about_(std::move(about)),
-      first_(about_.size()),
-      second_(about_.size() * about_.size()),
-      third_(about_.size()) {}
+MixedMoments::MixedMoments(const Box& around)
+    : mean_(around.low),
+      off_(mean_.size()),
+      covariance_(mean_.size() * mean_.size()),
+      third_(mean_.size()) {
+    for (std::size_t k = 0; k < mean_.size(); ++k)
+        per_unit_.push_back(1 / unit_for(around.extent(k)));
+}
 
 void MixedMoments::add(double weight, const Moments& part) {
-    const std::size_t d = about_.size();
-    weight_ += weight;
+    if (!(weight > 0)) return;
+    const std::size_t d = mean_.size();
+    const double all = weight_ + weight;
+    const double here = weight / all;
+    const double before = weight_ / all;
+    weight_ = all;
     for (std::size_t k = 0; k < d; ++k) {
-        const double m = part.mean[k] - about_[k];
-        const double variance = part.covariance[k * d + k];
+        const double step = part.mean[k] - mean_[k];
+        const double m = off_[k] = step * per_unit_[k];
+        const double old = covariance_[k * d + k];
+        const double variance = part.covariance[k * d + k] * per_unit_[k] * per_unit_[k];
         const double third = part.skewness[k] * variance * std::sqrt(variance);
-        first_[k] += weight * m;
-        third_[k] += weight * (third + m * (3 * variance + m * m));
-        for (std::size_t j = 0; j < d; ++j)
-            second_[k * d + j] +=
-                weight * (part.covariance[k * d + j] + m * (part.mean[j] - about_[j]));
+        third_[k] = before * third_[k] + here * third +
+                    before * here * m * (3 * (variance - old) + (before - here) * m * m);
+        for (std::size_t j = 0; j <= k; ++j) {
+            double& both = covariance_[k * d + j];
+            both = before * both +
+                   here * (part.covariance[k * d + j] * per_unit_[k] * per_unit_[j]) +
+                   before * here * m * off_[j];
+        }
+        mean_[k] = here < before ? mean_[k] + here * step : part.mean[k] - before * step;
     }
 }
 
 Moments MixedMoments::moments() const {
-    const std::size_t d = about_.size();
+    const std::size_t d = mean_.size();
     Moments all = sized(d);
+    all.mean = mean_;
     for (std::size_t k = 0; k < d; ++k) {
-        const double m = first_[k] / weight_;
-        all.mean[k] = about_[k] + m;
-        for (std::size_t j = 0; j < d; ++j)
-            all.covariance[k * d + j] = second_[k * d + j] / weight_ - m * (first_[j] / weight_);
-        const double raw = second_[k * d + k] / weight_;
-        const double third = third_[k] / weight_ - m * (3 * raw - 2 * m * m);
-        all.skewness[k] = skewness_of(all.covariance[k * d + k], third);
+        for (std::size_t j = 0; j <= k; ++j)
+            all.covariance[k * d + j] = all.covariance[j * d + k] =
+                covariance_[k * d + j] / per_unit_[k] / per_unit_[j];
+        const double variance = covariance_[k * d + k];
+        constexpr double least = 1e-190;  // third moments of smaller ones underflow
+        all.skewness[k] =
+            variance > 0 && variance < least ? unknown : skewness_of(variance, third_[k]);
     }
     return all;
 }

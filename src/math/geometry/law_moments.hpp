@@ -20,12 +20,17 @@
 
 namespace stipple {
 
-/// Moments of a coordinate; `third` is E (x - mean)^3.
+/// Moments of a coordinate; `third` is E (x - mean)^3. The variance is in units of `unit`^2, the
+/// third moment in `unit`^3: in units of the coordinate, tiny ones would vanish.
 struct LineMoments {
     double mean = 0;
     double variance = 0;
     double third = 0;
+    double unit = 1;  ///< a power of 2
 };
+
+/// The largest power of 2 up to a length; 1 if the length is 0 or not finite.
+double unit_for(double length);
 
 /// Central moments of a distribution on the plane, such as xxy = E (x - m_x)^2 (y - m_y).
 struct PlaneMoments {
@@ -59,21 +64,24 @@ Moments independent_moments(std::span<const LineMoments> coordinates);
 /// Moments of the uniform distribution on a triangle in any number of dimensions.
 Moments triangle_moments(const std::array<std::vector<double>, 3>& corners);
 
-/// Moments of a mixture of distributions with weights that need not sum to 1.
+/// Moments of a mixture of distributions with weights that need not sum to 1. Each part is merged
+/// into the central moments of those before it, so that no digits are lost wherever they are.
 class MixedMoments {
   public:
-    /// @param about a point near all distributions, so that sums lose no digits
-    explicit MixedMoments(std::vector<double> about);
+    /// @param around box of the distributions, whose extents give the units
+    explicit MixedMoments(const Box& around);
 
     void add(double weight, const Moments& part);
+    /// Skewnesses are NaN if their digits are lost beside the box.
     [[nodiscard]] Moments moments() const;
 
   private:
-    std::vector<double> about_;
     double weight_ = 0;
-    std::vector<double> first_;   ///< weighted sums of x - about
-    std::vector<double> second_;  ///< weighted sums of products, for each pair of coordinates
-    std::vector<double> third_;   ///< weighted sums of cubes, for each coordinate
+    std::vector<double> per_unit_;
+    std::vector<double> mean_;
+    std::vector<double> off_;         ///< from the mean to that of the part being added, in units
+    std::vector<double> covariance_;  ///< its lower triangle, in units
+    std::vector<double> third_;       ///< central, in units
 };
 
 }  // namespace stipple

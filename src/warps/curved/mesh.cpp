@@ -65,14 +65,20 @@ using Pair = std::array<double, 2>;
 constexpr std::size_t with_normal = 6;
 constexpr std::size_t with_barycentrics = 7;
 
-/// Cumulative areas of the triangles. @throws Error(input) if the total is 0
-std::vector<double> areas_up_to(const TriangleMesh& mesh, const std::string& name,
+/// Area of a triangle in units of `unit`^2, whose squares neither overflow nor underflow if the
+/// unit is a power of 2 near the mesh's size.
+double area_in(const TriangleMesh& mesh, std::size_t i, double unit) {
+    const auto [a, b, c] = mesh.corners(i);
+    return 0.5 * length(cross(times(minus(b, a), 1 / unit), times(minus(c, a), 1 / unit)));
+}
+
+/// Cumulative areas of the triangles, in units of `unit`^2. @throws Error(input) if the total is 0
+std::vector<double> areas_up_to(const TriangleMesh& mesh, double unit, const std::string& name,
                                 const RunContext& run) {
     std::vector<double> areas;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         if (i % 65536 == 0) run.check_stop();
-        const auto [a, b, c] = mesh.corners(i);
-        areas.push_back(0.5 * length(cross(minus(b, a), minus(c, a))));
+        areas.push_back(area_in(mesh, i, unit));
     }
     std::vector<double> sums = running_sums(areas);
     if (!(sums.back() > 0)) fail(ErrorKind::input, "{}: the mesh has no area", name);
@@ -116,13 +122,18 @@ class MeshDomain final : public NamedDomain {
     MeshDomain(TriangleMesh mesh, std::size_t numbers, const std::string& name, std::string spec,
                const RunContext& run)
         : NamedDomain(std::move(spec), numbers, 2), mesh_(std::move(mesh)), tree_(mesh_, run) {
-        std::vector<double> ends = areas_up_to(mesh_, name, run);
-        area_ = ends.back();
-        for (double& end : ends) end /= area_;
-        shares_ = GuideTable(std::move(ends), mesh_.triangles.size());
         const Box box = positions();
         for (std::size_t k = 0; k < 3; ++k)
             size_ = std::max({size_, std::abs(box.low[k]), std::abs(box.high[k])});
+        const double unit = unit_for(size_);
+        std::vector<double> ends = areas_up_to(mesh_, unit, name, run);
+        const double total = ends.back();
+        area_ = total * unit * unit;
+        if (!(area_ >= 1e-300 && area_ <= 1e300))
+            fail(ErrorKind::input, "{}: the mesh has an area of {:.3g}; expected [1e-300, 1e300]",
+                 name, area_);
+        for (double& end : ends) end /= total;
+        shares_ = GuideTable(std::move(ends), mesh_.triangles.size());
     }
 
     double measure() const override { return area_; }
@@ -147,13 +158,10 @@ class MeshDomain final : public NamedDomain {
         std::ranges::copy(find(point).value_or(Pair{}), cube.begin());
     }
     std::optional<Moments> moments() const override {
-        std::vector<double> about = positions().low;
-        about.resize(dimension(), 0.0);
-        MixedMoments all(about);
+        MixedMoments all(bounding_box());
         for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
-            const auto [a, b, c] = mesh_.corners(i);
-            const double twice = length(cross(minus(b, a), minus(c, a)));
-            if (twice > 0) all.add(twice, triangle_moments(rows_at_corners(i)));
+            const double area = area_in(mesh_, i, unit_for(size_));
+            if (area > 0) all.add(area, triangle_moments(rows_at_corners(i)));
         }
         return all.moments();
     }

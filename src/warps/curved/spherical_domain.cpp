@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "math/densities/quadrature.hpp"
+#include "math/functions/powers.hpp"
 #include "math/functions/radians.hpp"
 #include "math/functions/trigonometry.hpp"
 
@@ -98,9 +101,63 @@ std::array<double, 3> SphericalDomain::axial(const Vector3& w) const {
     return {first, (ww * area_ + along[1]) / 3, (2 * ww * first + along[2]) / 4};
 }
 
+/// Central moments by quadrature over flat triangles between the corners p_0, p_i, p_i+1: with
+/// p = p_0 + e, the direction differs from p_0 by (e - p_0 (|p| - 1)) / |p|, and its solid angle is
+/// the triangle's volume with the centre over |p|^3.
+Moments SphericalDomain::close_moments() const {
+    using Term = std::function<double(const Vector3&)>;
+    const Vector3& from = corners_[0];
+    const auto integral = [&](const Term& term) {
+        double sum = 0;
+        for (std::size_t i = 1; i + 1 < corners_.size(); ++i) {
+            const Vector3 b = minus(corners_[i], from);
+            const Vector3 c = minus(corners_[i + 1], from);
+            const auto at = [&](double s, double t) {
+                const Vector3 e = plus(times(b, s), times(c, t));
+                const double size = length(plus(from, e));
+                const double excess = (2 * dot(from, e) + dot(e, e)) / (size + 1);
+                const Vector3 off = times(minus(e, times(from, excess)), 1 / size);
+                return term(off) / (size * size * size);
+            };
+            const auto row = [&](double s) {
+                return gauss_kronrod([&](double t) { return at(s, t); }, 0, 1 - s).value;
+            };
+            sum += std::abs(corner_volume(from, corners_[i], corners_[i + 1])) *
+                   gauss_kronrod(row, 0, 1).value;
+        }
+        return sum;
+    };
+    const double all = integral([](const Vector3&) { return 1.0; });
+    Moments m{std::vector<double>(3), std::vector<double>(9), std::vector<double>(3)};
+    Vector3 mean{};
+    for (std::size_t k = 0; k < 3; ++k)
+        mean[k] = integral([k](const Vector3& v) { return v[k]; }) / all;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j <= i; ++j)
+            m.covariance[3 * i + j] = m.covariance[3 * j + i] =
+                integral([&](const Vector3& v) { return (v[i] - mean[i]) * (v[j] - mean[j]); }) /
+                all;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double deviation = std::sqrt(m.covariance[4 * k]);
+        m.mean[k] = from[k] + mean[k];
+        m.skewness[k] = integral([&](const Vector3& v) {
+                            return whole_power((v[k] - mean[k]) / deviation, 3);
+                        }) /
+                        all;
+    }
+    return m;
+}
+
+/// Small domains by quadrature, others by integrals along the edges.
 std::optional<Moments> SphericalDomain::moments() const {
-    constexpr double least = 1e-3;
+    double nearest = 1;  // cosine of the largest distance between corners
+    for (const Vector3& a : corners_)
+        for (const Vector3& b : corners_) nearest = std::min(nearest, dot(a, b));
+    // Within 96 degrees the integrand is smooth enough for one interval.
+    const bool close = nearest > -0.1 && area_ < 0.5;
+    const double least = close ? 1e-9 : 1e-3;
     if (area_ < least) return std::nullopt;
+    if (close) return close_moments();
     Moments m{std::vector<double>(3), std::vector<double>(9), std::vector<double>(3)};
     std::array<double, 3> squares;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -113,6 +170,10 @@ std::optional<Moments> SphericalDomain::moments() const {
         m.covariance[4 * k] = squares[k] - mean * mean;
         m.skewness[k] = (third / area_ - 3 * mean * squares[k] + 2 * mean * mean * mean) /
                         (m.covariance[4 * k] * std::sqrt(m.covariance[4 * k]));
+        // Of slivers, rounding of the integrals leaves little of third moments.
+        const double error = std::numeric_limits<double>::epsilon() / area_;
+        if (error > 1e-8 * m.covariance[4 * k] * std::sqrt(m.covariance[4 * k]))
+            m.skewness[k] = std::numeric_limits<double>::quiet_NaN();
     }
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < i; ++j) {

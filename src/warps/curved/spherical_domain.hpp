@@ -64,13 +64,16 @@ class SphericalDomain final : public NamedDomain {
     /// The great circles of the edges.
     std::optional<SphereShape> sphere_shape() const override;
 
-    /// Relative error up to 1e-8; nullopt for areas below 1e-3, where differences lose more digits.
+    /// Relative error up to 1e-8. Skewnesses of slivers longer than 96 degrees may be NaN. nullopt
+    /// for areas below 1e-9, or 1e-3 for these, where differences lose more digits.
     std::optional<Moments> moments() const override;
     std::vector<std::string> cube_axes() const override { return axes_; }
 
   private:
     /// Whether a vector has length 1 and is inside all edges, both up to `slack`.
     bool holds(const Vector3& v, double slack) const;
+
+    [[nodiscard]] Moments close_moments() const;
 
     /// The moments T_1, T_2, T_3 about an axis.
     std::array<double, 3> axial(const Vector3& w) const;

@@ -69,7 +69,8 @@ struct Outcomes : LineDistribution {
 
     double inverse(double x) const override {
         const std::size_t i = find(x);
-        return 0.5 * (sums.begin(i) + sums.end(i));
+        const double middle = 0.5 * (sums.begin(i) + sums.end(i));
+        return middle < sums.end(i) ? middle : sums.begin(i);
     }
     /// False, since all outcomes have cells of the same size in the cube.
     bool even() const override { return false; }
@@ -90,11 +91,19 @@ struct Outcomes : LineDistribution {
     std::pair<double, double> range() const override {
         return {value[order.front()], value[order.back()]};
     }
+    /// Relative to the likeliest outcome, so that no digits are lost far from 0.
     LineMoments moments() const override {
-        LineMoments m;
-        for (std::size_t i = 0; i < count(); ++i) m.mean += weight[i] * value[i];
+        const double about =
+            value[static_cast<std::size_t>(std::ranges::max_element(weight) - weight.begin())];
+        double reach = 0;
+        for (const double x : value) reach = std::max(reach, std::abs(x - about));
+        LineMoments m{.unit = unit_for(reach)};
+        const auto off = [&](std::size_t i) { return (value[i] - about) / m.unit; };
+        double mean = 0;
+        for (std::size_t i = 0; i < count(); ++i) mean += weight[i] * off(i);
+        m.mean = about + m.unit * mean;
         for (std::size_t i = 0; i < count(); ++i) {
-            const double from = value[i] - m.mean;
+            const double from = off(i) - mean;
             m.variance += weight[i] * from * from;
             m.third += weight[i] * from * from * from;
         }

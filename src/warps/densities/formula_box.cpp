@@ -2,6 +2,7 @@
 #include "warps/densities/formula_box.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -32,7 +33,7 @@ Effort effort_in_cell(std::size_t dimension, double share) {
 
 /// Estimates the integral by the mean over an evenly distributed sequence of points. The error is
 /// six times the standard error, from the means of consecutive batches.
-Estimate mean_integral(const Expression& f, const Box& box) {
+Estimate mean_integral(const std::string& what, const Expression& f, const Box& box) {
     constexpr std::size_t stretches = 32;
     constexpr std::size_t places = 4096;  // points in each batch
     constexpr double steps[3][3] = {{0.6180339887498949},
@@ -41,8 +42,8 @@ Estimate mean_integral(const Expression& f, const Box& box) {
     const std::size_t d = box.dimension();
     std::vector<double> points(places * d);
     std::vector<double> values(places);
-    double sum = 0;
-    double squares = 0;
+    std::array<double, stretches> means{};
+    double top = 0;
     for (std::size_t s = 0; s < stretches; ++s) {
         for (std::size_t i = 0; i < points.size(); ++i) {
             const double turns =
@@ -50,18 +51,21 @@ Estimate mean_integral(const Expression& f, const Box& box) {
             points[i] = box.low[i % d] + (turns - std::floor(turns)) * box.extent(i % d);
         }
         f.evaluate(points, values);
-        double mean = 0;
-        for (const double value : values) mean += value / double{places};
-        sum += mean;
-        squares += mean * mean;
+        for (const double value : values) means[s] += value / double{places};
+        top = std::max(top, std::ranges::max(values));
     }
-    const double mean = sum / stretches;
-    const double variance = std::max(squares / stretches - mean * mean, 0.0) / stretches;
-    return volume_of(box) * Estimate{mean, 6 * std::sqrt(variance)};
+    double mean = 0;
+    for (const double one : means) mean += one / double{stretches};
+    if (!(top > 0)) return {};
+    require_integral(what, volume_of(box) * mean);
+    double variance = 0;  // relative, so that no square overflows or underflows
+    for (const double one : means)
+        variance += (one / mean - 1) * (one / mean - 1) / double{stretches};
+    return volume_of(box) * Estimate{mean, 6 * mean * std::sqrt(variance / stretches)};
 }
 
 Effort effort_for_moments(std::size_t dimension) {
-    return dimension <= 1 ? Effort{1e-10, 400, 63} : Effort{1e-7, 60, 15};
+    return dimension <= 1 ? effort_for(1) : Effort{1e-7, 60, 15};
 }
 
 }  // namespace
@@ -78,7 +82,7 @@ Estimate FormulaBox::integral() const {
         // If quadrature misses a narrow peak, its result is too far from that of mean_integral(),
         // and it is repeated with more intervals.
         constexpr int most_tries = 4;
-        const Estimate mean = mean_integral(f_, box_);
+        const Estimate mean = mean_integral(what, f_, box_);
         Effort effort = effort_for(dimension());
         for (int tries = 1;; ++tries, effort.first = 2 * effort.first + 1, effort.most *= 2) {
             integral_ = integrate_box(
@@ -122,40 +126,57 @@ Estimate FormulaBox::probability(const Box& cell) const {
     return {share, (mass.error + share * whole.error) / whole.value};
 }
 
+/// Central moments about means found first, so that narrow peaks lose no digits; the third ones are
+/// in units of the standard deviation.
 std::optional<Moments> FormulaBox::moments() const {
     const std::size_t d = dimension();
     if (d > 2) return std::nullopt;
     const Estimate whole = integral();
-    bool fine = whole.error <= 1e-6 * whole.value;
-    // Mean of a product of centred coordinates, in units of half the box's extents.
-    const auto expect = [&](std::size_t i, std::size_t p, std::size_t j, std::size_t q) {
-        const auto off = [&](std::span<const double> x, std::size_t k) {
-            return (x[k] - box_.low[k]) / (0.5 * box_.extent(k)) - 1;
-        };
-        const Estimate found = integrate_box(
-            [&](std::span<const double> x) {
-                return f_.at(x) * whole_power(off(x, i), p) * whole_power(off(x, j), q);
-            },
-            box_, effort_for_moments(d));
-        fine = fine && found.error <= 1e-6 * whole.value;
-        return found.value / whole.value;
-    };
+    constexpr double within = 1e-6;
+    constexpr double of_deviation = 1e-5;  // with powers of standard deviations as units
     Moments m{std::vector<double>(d), std::vector<double>(d * d), std::vector<double>(d)};
     std::vector<double> mean(d);
-    for (std::size_t k = 0; k < d; ++k) {
+    // A coordinate less its mean, in units of half the box's extent.
+    const auto off = [&](std::span<const double> x, std::size_t k) {
+        return (x[k] - box_.low[k]) / (0.5 * box_.extent(k)) - 1 - mean[k];
+    };
+    const auto expect = [&](const auto& term) {
+        const Estimate found =
+            integrate_box([&](std::span<const double> x) { return f_.at(x) * term(x); }, box_,
+                          effort_for_moments(d));
+        return Estimate{found.value / whole.value, found.error / whole.value};
+    };
+    // A narrow peak that these intervals miss is missing in the mass.
+    const Estimate mass = expect([](const auto&) { return 1.0; });
+    bool fine = whole.error <= within * whole.value && std::abs(mass.value - 1) <= within;
+    // Of a term that may cancel: with 1 added, tolerances are relative to the mass.
+    const auto expect_odd = [&](const auto& term) {
+        const Estimate found = expect([&](const auto& x) { return 1 + term(x); });
+        return Estimate{found.value - mass.value, found.error};
+    };
+    std::vector<double> deviation(d);
+    for (std::size_t k = 0; k < d && fine; ++k) {
         const double half = 0.5 * box_.extent(k);
-        mean[k] = expect(k, 1, k, 0);
-        const double square = expect(k, 2, k, 0);
-        const double variance = square - mean[k] * mean[k];
-        const double third =
-            expect(k, 3, k, 0) - 3 * mean[k] * square + 2 * mean[k] * mean[k] * mean[k];
+        const Estimate first = expect_odd([&](const auto& x) { return off(x, k); });
+        mean[k] = first.value;
+        const Estimate second = expect([&](const auto& x) { return whole_power(off(x, k), 2); });
+        deviation[k] = std::sqrt(second.value);
+        const Estimate third =
+            expect_odd([&](const auto& x) { return whole_power(off(x, k) / deviation[k], 3); });
+        fine = first.error <= std::min(within, of_deviation * deviation[k]) &&
+               second.error <= of_deviation * second.value && third.error <= of_deviation;
         m.mean[k] = box_.low[k] + half * (1 + mean[k]);
-        m.covariance[k * d + k] = half * half * variance;
-        m.skewness[k] = third / (variance * std::sqrt(variance));
+        m.covariance[k * d + k] = half * half * second.value;
+        m.skewness[k] = third.value;
     }
-    if (d == 2)
+    if (d == 2 && fine) {
+        const double unit = deviation[0] * deviation[1];
+        const Estimate both =
+            expect_odd([&](const auto& x) { return off(x, 0) * off(x, 1) / unit; });
+        fine = both.error <= of_deviation;
         m.covariance[1] = m.covariance[2] =
-            0.25 * box_.extent(0) * box_.extent(1) * (expect(0, 1, 1, 1) - mean[0] * mean[1]);
+            0.25 * box_.extent(0) * box_.extent(1) * unit * both.value;
+    }
     return fine ? std::optional(m) : std::nullopt;
 }
 

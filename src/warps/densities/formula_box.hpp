@@ -34,8 +34,8 @@ class FormulaBox final : public NamedDomain {
     }
     std::vector<std::string> cube_axes() const override { return place_->cube_axes(); }
 
-    /// Moments by quadrature, to 1e-6 of the box's extents; nullopt if that accuracy is not
-    /// reached, and in three dimensions.
+    /// Moments by quadrature, to 1e-6 of the box's extents and 1e-5 of the standard deviations;
+    /// nullopt if that accuracy is not reached, and in three dimensions.
     std::optional<Moments> moments() const override;
 
     /// Finds gaps on a grid of cells, and the measure of the remaining region by quadrature.

@@ -113,7 +113,7 @@ class ImageDomain final : public SquareDomain {
         const auto w = static_cast<double>(map_.width());
         const auto h = static_cast<double>(map_.height());
         Moments pixel{{0, 0}, {1 / (12 * w * w), 0, 0, 1 / (12 * h * h)}, {0, 0}};
-        MixedMoments all({0.5, 0.5});
+        MixedMoments all(bounding_box());
         for (std::size_t i = 0; i < map_.values().size(); ++i) {
             pixel.mean = {(static_cast<double>(i % map_.width()) + 0.5) / w,
                           (static_cast<double>(i / map_.width()) + 0.5) / h};
@@ -160,7 +160,7 @@ class BilinearDomain final : public SquareDomain {
         return mass;
     }
     std::optional<Moments> moments() const override {
-        MixedMoments all({0.5, 0.5});
+        MixedMoments all(bounding_box());
         for_patches({{0, 0}, {1, 1}}, [&](const Patch& patch) {
             if (patch.mass() > 0) all.add(patch.mass(), patch.moments());
         });

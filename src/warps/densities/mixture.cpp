@@ -165,7 +165,7 @@ class MixtureDomain final : public NamedDomain {
         });
     }
     std::optional<Moments> moments() const override {
-        MixedMoments all(std::vector<double>(dimension(), 0.0));
+        MixedMoments all(box_);
         for (std::size_t i = 0; i < parts_.size(); ++i) {
             const auto part = parts_[i]->moments();
             if (!part) return std::nullopt;
@@ -216,7 +216,13 @@ class MixtureDomain final : public NamedDomain {
         const auto shape = part.sphere_shape();
         if (!shape) return part.probability(cell);
         const Zone zone{1 - 2 * cell.high[0], 1 - 2 * cell.low[0], cell.low[1], cell.high[1]};
-        return integrate_zone([&](const Vector3& v) { return part.density(v); }, zone, *shape);
+        Estimate mass =
+            integrate_zone([&](const Vector3& v) { return part.density(v); }, zone, *shape);
+        // The rounded rim of a small shape.
+        const double size = std::sqrt(part.measure() / (4 * std::numbers::pi));
+        if (mass.value > 0 && size < 1 / 16.0)
+            mass.error += 8 * std::numeric_limits<double>::epsilon() / size;
+        return mass;
     }
 
     std::vector<DomainPtr> parts_;

@@ -108,20 +108,43 @@ struct PowerLaw : LineDistribution, Interval {
         return (real_power(b / size, s) + sign * real_power(-a / size, s)) / s;
     }
     LineMoments narrow_moments() const;
+    LineMoments steep_moments(double heavier, double length) const;
 };
 
 /// Moments by quadrature, for ends so close to each other that powers would lose digits.
 LineMoments PowerLaw::narrow_moments() const {
     const double middle = 0.5 * (a + b);
+    const double scale = unit_for(b - a);
     const auto sum = [&](std::size_t n, double about) {
         const auto integrand = [&](double x) {
-            return whole_power(x - about, n) * real_power(std::abs(x / middle), p - 1);
+            return whole_power((x - about) / scale, n) * real_power(std::abs(x / middle), p - 1);
         };
         return gauss_kronrod(integrand, a, b).value;
     };
     const double mass = sum(0, 0);
-    const double mean = middle + sum(1, middle) / mass;
-    return {mean, sum(2, mean) / mass, sum(3, mean) / mass};
+    const double mean = middle + scale * (sum(1, middle) / mass);
+    return {mean, sum(2, mean) / mass, sum(3, mean) / mass, scale};
+}
+
+/// For large exponents, for which raw moments would cancel: x / heavier - 1 = expm1(-+t), where t
+/// has an exponential distribution up to `length`.
+LineMoments PowerLaw::steep_moments(double heavier, double length) const {
+    const double side = p > 0 ? -1 : 1;
+    const auto expect = [&](double about, std::size_t n) {
+        const auto at = [&](double t) {
+            return stipple::exponential(-std::abs(p) * t) *
+                   whole_power(exp_minus_1(side * t) - about, n);
+        };
+        constexpr double all = 45;  // beyond, the probability is 3e-20
+        return gauss_kronrod(at, 0, std::min(length, all / std::abs(p))).value;
+    };
+    const double mass = expect(0, 0);
+    const double mean = expect(0, 1) / mass;
+    const double scale = unit_for(heavier / std::abs(p));
+    const double ratio = heavier / scale;
+    const double sign = b <= 0 || (a < 0 && -a > b) ? -1 : 1;
+    return {sign * heavier * (1 + mean), ratio * ratio * (expect(mean, 2) / mass),
+            sign * ratio * ratio * ratio * (expect(mean, 3) / mass), scale};
 }
 
 LineMoments PowerLaw::moments() const {
@@ -131,6 +154,8 @@ LineMoments PowerLaw::moments() const {
         return narrow_moments();
     const double heavier = around_0 || p > 0 ? size : near;  // the end with the larger |x|^p
     const double other = (p > 0 ? near : size) / heavier;
+    const double length = other > 0 ? std::abs(logarithm(other)) : 1;
+    if (std::abs(p) > 45 && (!around_0 || p * length > 45)) return steep_moments(heavier, length);
     const double sign = b <= 0 ? -1 : 1;
     std::array<double, 4> sums;
     for (int n = 0; n < 4; ++n)
@@ -139,8 +164,10 @@ LineMoments PowerLaw::moments() const {
     const double m = sums[1] / sums[0];
     const double mm = sums[2] / sums[0];
     const double third = sums[3] / sums[0] - 3 * m * mm + 2 * m * m * m;
-    return {sign * heavier * m, heavier * heavier * (mm - m * m),
-            sign * heavier * heavier * heavier * third};
+    const double scale = unit_for(heavier);
+    const double ratio = heavier / scale;
+    return {sign * heavier * m, ratio * ratio * (mm - m * m), sign * ratio * ratio * ratio * third,
+            scale};
 }
 
 /// An interval on one side of 0; powers are relative to the end with the larger |x|^p.

@@ -282,7 +282,7 @@ std::optional<Estimate> PolygonDomain::box_mass(const Box& box) const {
 }
 
 std::optional<Moments> PolygonDomain::moments() const {
-    MixedMoments all({0.5 * (box_.low[0] + box_.high[0]), 0.5 * (box_.low[1] + box_.high[1])});
+    MixedMoments all(box_);
     for (const Band& band : bands_)
         for (const Part& part : parts_of(band)) {
             const std::vector<double> low = {part.left_bottom, band.bottom};

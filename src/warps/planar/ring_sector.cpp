@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "math/densities/quadrature.hpp"
+#include "math/functions/powers.hpp"
 #include "warps/planar/placed_shape.hpp"
 
 namespace stipple::warps {
@@ -62,26 +64,57 @@ std::vector<PlanePoint> RingSector::hull(double turn) const {
     return points;
 }
 
-/// Each moment of order n = i + j is E r^n times the mean of cos^i sin^j over the angle.
+/// About the bisector of the angles as x axis: point = (r cos a, r sin a) with independent r and a,
+/// |a| <= half. Central moments of r and of cos a are used, so that thin rings and narrow sectors
+/// lose no digits. With v = 1 - cos a:
+///
+///     x - E x = (r - R) C + R (V - v) + (r - R) (V - v),    R = E r, V = E v, C = 1 - V.
 PlaneMoments RingSector::moments() const {
     const double q = inner;
-    const double r = 2 / 3.0 * (1 + q + q * q) / (1 + q);
     const double rr = 0.5 * (1 + q * q);
-    const double rrr = 0.4 * (1 + q * (1 + q * (1 + q * (1 + q)))) / (1 + q);
-    const double angle = 2 * std::numbers::pi * width;
-    const auto [c, s] = cos_sin_turns(width);
-    const double less = 1 - c;
-    const double less_cube = less * (1 + c + c * c);  // 1 - c^3
-    const double half = 0.5 * c * s / angle;
-    const PlaneMoments raw{.mean = {r * s / angle, r * less / angle},
-                           .xx = rr * (0.5 + half),
-                           .xy = rr * 0.5 * s * s / angle,
-                           .yy = rr * (0.5 - half),
-                           .xxx = rrr * (s - s * s * s / 3) / angle,
-                           .xxy = rrr * less_cube / 3 / angle,
-                           .xyy = rrr * s * s * s / 3 / angle,
-                           .yyy = rrr * (less - less_cube / 3) / angle};
-    return about_the_mean(raw);
+    if (width == 1) return {.xx = 0.5 * rr, .yy = 0.5 * rr};
+    const double thick = spread / (1 + q);
+    const double middle = 0.5 * (1 + q);
+    const double ratio = thick / middle * thick;
+    const double r = middle + ratio / 12;
+    const double r_2 = thick * thick / 12 - ratio * ratio / 144;
+    const double r_3 = ratio * (ratio * ratio / 864 - thick * thick / 120);
+
+    const double half = std::numbers::pi * width;
+    const auto mean_of = [&](const auto& term) {
+        const auto at = [&](double angle) {
+            const CosSin own = cos_sin_turns(0.25 * std::numbers::inv_pi * angle);
+            const double v = 2 * own.sin * own.sin;
+            return term(v, v * (2 - v));  // 1 - cos and sin^2 of the angle
+        };
+        return gauss_kronrod(at, 0, half).value / half;
+    };
+    const double v_mean = mean_of([](double v, double) { return v; });
+    const double c = 1 - v_mean;
+    const double ss = mean_of([](double, double s) { return s; });
+    const auto central = [&](std::size_t n) {
+        return mean_of([&](double v, double) { return whole_power(v_mean - v, n); });
+    };
+    const double c_2 = central(2);
+    const double c_3 = central(3);
+    const double mixed = mean_of([&](double v, double s) { return (v_mean - v) * s; });
+
+    const double xx = r_2 * c * c + r * r * c_2 + r_2 * c_2;
+    const double yy = rr * ss;
+    const double xxx = r_3 * (c * c * c + c_3 + 3 * c * c_2) + r * r * r * c_3 + 3 * r * r_2 * c_3 +
+                       6 * c * r * r_2 * c_2;
+    const double xyy = rr * r * mixed + (r_3 + 2 * r * r_2) * (c * ss + mixed);
+    const auto [cos, sin] = cos_sin_turns(0.5 * width);
+    const double cc = cos * cos;
+    const double sin_2 = sin * sin;
+    return {.mean = {r * c * cos, r * c * sin},
+            .xx = cc * xx + sin_2 * yy,
+            .xy = cos * sin * (xx - yy),
+            .yy = sin_2 * xx + cc * yy,
+            .xxx = cos * (cc * xxx + 3 * sin_2 * xyy),
+            .xxy = sin * (cc * (xxx - 2 * xyy) + sin_2 * xyy),
+            .xyy = cos * (sin_2 * (xxx - 2 * xyy) + cc * xyy),
+            .yyy = sin * (sin_2 * xxx + 3 * cc * xyy)};
 }
 
 std::vector<std::string> RingSector::axes() const {
