@@ -6,6 +6,8 @@
 #include <tuple>
 #include <vector>
 
+#include "math/geometry/law_moments.hpp"
+
 namespace stipple {
 namespace {
 
@@ -18,7 +20,10 @@ double place_on_edge(const Vector3& a, const Vector3& b, const Vector3& point) {
 
 }  // namespace
 
-Foot foot_on(const std::array<Vector3, 3>& corners, const Vector3& point) {
+namespace {
+
+/// foot_on() for coordinates whose fourth powers neither overflow nor underflow.
+Foot scaled_foot(const std::array<Vector3, 3>& corners, const Vector3& point) {
     Foot best{{1, 0, 0}, std::numeric_limits<double>::infinity()};
     for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t next = (k + 1) % 3;
@@ -41,6 +46,21 @@ Foot foot_on(const std::array<Vector3, 3>& corners, const Vector3& point) {
     const double height = std::abs(dot(d, normal)) / std::sqrt(square);
     if (l0 >= 0 && l1 >= 0 && l2 >= 0 && height <= best.distance) best = {{l0, l1, l2}, height};
     return best;
+}
+
+}  // namespace
+
+Foot foot_on(const std::array<Vector3, 3>& corners, const Vector3& point) {
+    double size = 0;  // of the edges, the coordinates of which may be far larger
+    for (const std::size_t k : {1, 2})
+        size = std::max(size, largest(minus(corners[k], corners[0])));
+    const double unit = unit_for(size);
+    if (unit > 0x1p-200 && unit < 0x1p200) return scaled_foot(corners, point);
+    std::array<Vector3, 3> own;
+    for (std::size_t k = 0; k < 3; ++k) own[k] = times(minus(corners[k], corners[0]), 1 / unit);
+    Foot foot = scaled_foot(own, times(minus(point, corners[0]), 1 / unit));
+    foot.distance *= unit;
+    return foot;
 }
 
 TriangleTree::TriangleTree(const TriangleMesh& mesh, const RunContext& run) : mesh_(mesh) {

@@ -198,4 +198,23 @@ TEST(Mesh, RefusesFilesWithoutASurface) {
               std::string::npos);
 }
 
+// Squares of areas must neither vanish nor overflow.
+TEST(Mesh, MayHaveAnySize) {
+    for (const std::string s : {"1e-140", "1e-80", "1", "1e80", "1e140"}) {
+        const MeshFile file(
+            fmt::format("v 0 0 0\nv {0} 0 0\nv 0 {0} 0\nv {0} {0} {0}\nf 1 2 3\nf 2 3 4\n", s));
+        const auto map = mapping(file.spec());
+        const double size = std::stod(s);
+        EXPECT_NEAR(map->domain()->measure() / size / size, 0.5 + std::sqrt(3) / 2, 1e-15) << s;
+        EXPECT_NEAR(map->domain()->moments()->skewness[2], 1.0144337540012358, 1e-13) << s;
+        for (const Point& u : {Point{0.2, 0.3}, {0.7, 0.9}}) {
+            const Point back = inverse_of(*map, image_of(file.spec(), u));
+            expect_near(back, u, 1e-14);
+        }
+    }
+    const MeshFile tiny("v 0 0 0\nv 1e-155 0 0\nv 0 1e-155 0\nf 1 2 3\n");
+    EXPECT_NE(error_of([&] { mapping(tiny.spec()); }).find("the mesh has an area of 5e-311"),
+              std::string::npos);
+}
+
 }  // namespace stipple::testing::mesh_test
