@@ -129,4 +129,12 @@ TEST(Discrete, DomainSaysWhatItIsAndRefusesTheRest) {
               "usage: --values: 1 is given twice");
 }
 
+TEST(Discrete, InverseStaysInOneStepOfDoubles) {
+    const std::string spec =
+        "discrete:probabilities=[0.5000000000000001,1.1102230246251565e-16,0.4999999999999998]";
+    const auto map = mapping(spec);
+    for (const double x : {0.0, 1.0, 2.0})
+        EXPECT_EQ(image_of(spec, inverse_of(*map, {x, x})), (std::vector{x, x}));
+}
+
 }  // namespace stipple::testing::discrete_test

@@ -121,4 +121,23 @@ TEST(Expression1d, RefusesBadOptions) {
               "input: the point (1.5) is outside the domain expression-1d:density=x");
 }
 
+// Sums of such masses overflowed or lost digits: probabilities were wrong by 1e-5.
+TEST(Expression1d, RefusesIntegralsBeyondDoubles) {
+    for (const std::string spec :
+         {"expression-1d:density=[1e308*(x/10)^3],range=[0,10]",
+          "expression-1d:density=[1e-310*(x/10)^3],range=[0,10]",
+          "expression-1d:density=[1-x/1e-300],range=[0,1e-300]",
+          "expression-2d:density=[x+y],bounds=0..1e-180", "expression-2d:density=[1e307*(x+y)]"})
+        EXPECT_NE(error_of([&] { mapping(spec); }).find("the integral is about "),
+                  std::string::npos)
+            << spec;
+    for (const std::string spec : {"rejection:density=[1e-320*x],bound=1e-300,bounds=[0..1]",
+                                   "rejection:density=[1e300*x],bound=1e300,bounds=[0..1]"})
+        EXPECT_NE(error_of([&] {
+                      (void)mapping(spec)->domain()->moments();
+                  }).find("the integral is about "),
+                  std::string::npos)
+            << spec;
+}
+
 }  // namespace stipple::testing::expression_1d_test

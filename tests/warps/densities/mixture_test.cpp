@@ -217,4 +217,21 @@ TEST(Mixture, EndsWhereAllOfItsShapesDo) {
     EXPECT_FALSE(caps->contains(below));
 }
 
+// Rounding of the rims of thin or small components is part of the stated error.
+TEST(Mixture, ProbabilitiesOfThinComponentsSumTo1WithinTheirError) {
+    for (const std::string components :
+         {"annulus:inner=0.9999999|disk:radius=10",
+          "spherical-triangle:vertices=[1,0,0 1,0.001,0 1,0,0.001]|sphere"}) {
+        const DomainPtr domain =
+            mapping("mixture:weights=[0.5,0.5],components=[" + components + "]")->domain();
+        Estimate sum;
+        for (int i = 0; i < 11; ++i)
+            for (int j = 0; j < 11; ++j)
+                sum +=
+                    domain->probability({{i / 11.0, j / 11.0}, {(i + 1) / 11.0, (j + 1) / 11.0}});
+        EXPECT_LE(std::abs(sum.value - 1), sum.error + 1e-13) << components;
+        EXPECT_LT(sum.error, 1e-6) << components;
+    }
+}
+
 }  // namespace stipple::testing::mixture_test
