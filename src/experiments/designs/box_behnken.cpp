@@ -12,12 +12,11 @@
 // Source  G. E. P. Box, D. W. Behnken, Technometrics 2 (1960) 455-475,
 //         doi:10.1080/00401706.1960.10489912.
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <bit>
 
 #include "core/error.hpp"
-#include "core/text.hpp"
+#include "experiments/designs/embedded_table.hpp"
 #include "experiments/designs/levels.hpp"
 
 namespace stipple::generators::box_behnken {
@@ -42,20 +41,15 @@ constexpr Blocks published[] = {
      "1269 348b 5ade 7cfg 237a 145c 6bef 89dg 256d 478f 19ae 3bcg 367e 158g 2abf 49cd 13df 24eg "
      "579b 68ac 46ag 359f 17bd 28ce"}};
 
-/// Returns the blocks for a number of factors. @throws Error(usage) naming the nearest numbers
+/// Blocks for 3 to 16 factors. @throws Error(usage) naming the nearest numbers
 const Blocks& blocks_for(std::size_t factors) {
-    std::size_t below = 0;
-    for (const Blocks& blocks : published) {
-        if (blocks.factors == factors) return blocks;
-        if (blocks.factors > factors)
-            fail(ErrorKind::usage,
-                 "--dimension: no Box-Behnken design of {} factors is published; {} and {} are the "
-                 "nearest",
-                 factors, below, blocks.factors);
-        below = blocks.factors;
-    }
-    fail(ErrorKind::usage, "--dimension: {} is outside [3, {}], the range of box-behnken", factors,
-         below);
+    const auto* const blocks = std::ranges::lower_bound(published, factors, {}, &Blocks::factors);
+    if (blocks->factors != factors)
+        fail(ErrorKind::usage,
+             "--dimension: no Box-Behnken design of {} factors is published; {} and {} are the "
+             "nearest",
+             factors, (blocks - 1)->factors, blocks->factors);
+    return *blocks;
 }
 
 /// Index of each factor within each block, -1 for factors outside the block.
@@ -65,11 +59,8 @@ Places places_of(const Blocks& blocks) {
     Places places;
     for (const std::string_view block : split(blocks.list, ' ')) {
         auto& of_factor = places.emplace_back(blocks.factors, -1);
-        for (std::size_t j = 0; j < block.size(); ++j) {
-            const char c = block[j];
-            of_factor[static_cast<std::size_t>(c <= '9' ? c - '1' : c - 'a' + 9)] =
-                static_cast<int>(j);
-        }
+        for (std::size_t j = 0; j < block.size(); ++j)
+            of_factor[number_of(block.substr(j, 1), 17) - 1] = static_cast<int>(j);
     }
     return places;
 }
@@ -87,24 +78,20 @@ Plan plan(const Request& request, const Values& options) {
                             fmt::format("the Box-Behnken design of {} factors", k));
 }
 
-/// Level 0, 1 or 2 of a factor in a run.
-std::size_t level(const Places& places, std::size_t log_runs, std::uint64_t run,
-                  std::size_t factor) {
-    const std::uint64_t block = run >> log_runs;
-    const int at = block < places.size() ? places[block][factor] : -1;
-    if (at < 0) return 1;
-    const auto bits = static_cast<unsigned>(run & ((std::uint64_t{1} << log_runs) - 1));
-    if (at < 4) return (bits >> at & 1) != 0 ? 2 : 0;
-    return std::popcount(bits) % 2 == 0 ? 2 : 0;  // level of the fifth factor, E = ABCD
-}
-
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     const Blocks& blocks = blocks_for(plan.dimension);
     const bool ends = options[ends_option];
     return level_sequence(
         plan, level_places(3, ends),
-        [places = places_of(blocks), log = log_runs(blocks)](
-            std::uint64_t run, std::size_t factor) { return level(places, log, run, factor); },
+        [places = places_of(blocks), log = log_runs(blocks)](std::uint64_t run,
+                                                             std::size_t factor) -> std::size_t {
+            const std::uint64_t block = run >> log;
+            const int at = block < places.size() ? places[block][factor] : -1;
+            if (at < 0) return 1;
+            const auto bits = static_cast<unsigned>(run & ((std::uint64_t{1} << log) - 1));
+            if (at < 4) return (bits >> at & 1) != 0 ? 2 : 0;
+            return std::popcount(bits) % 2 == 0 ? 2 : 0;  // level of the fifth factor, E = ABCD
+        },
         {{"coded_bounds", coded_range(3, ends)}});
 }
 
@@ -116,11 +103,7 @@ Generator unit() {
         .summary = "Three-level design without corners, for quadratic models, by Box and Behnken",
         .source = "Box, Behnken 1960, doi:10.1080/00401706.1960.10489912",
         .related = {"doe", "experiment", "response-surface", "rsm", "bbdesign", "quadratic"},
-        .traits = {.min_dimension = 3,
-                   .max_dimension = 16,
-                   .prefix = false,
-                   .seeded = false,
-                   .levels = true},
+        .traits = level_traits(3, 16),
         .options = Schema(center_option, ends_option),
         .aliases = {"bbd"},
         .plan = plan,

@@ -5,25 +5,21 @@
 // at the centre. The design is scaled about the cube's centre so that its outermost levels are
 // those of a three-level design (levels.hpp).
 //
-//     --alpha rotatable    F^(1/4): the variance of prediction depends only on the distance from
-//                          the centre
+//     --alpha rotatable    F^(1/4): equal variance of prediction at equal distance from the centre
 //             orthogonal   sqrt((sqrt(F N) - F) / 2) for N runs: quadratic effects are uncorrelated
 //
 //     --type circumscribed corners at -1 and 1, axial runs at -alpha and alpha
 //            inscribed     axial runs at -1 and 1, corners at -1/alpha and 1/alpha
 //            faced         alpha = 1
 //
-// Circumscribed and inscribed designs have the same points in the cube. They differ in the box with
-// these coded values (coded_bounds of the provenance, for --bounds): the box of the circumscribed
-// design is alpha times as wide.
+// Circumscribed and inscribed designs have equal points in the cube, but the box with these coded
+// values (coded_bounds of the provenance, for --bounds) is alpha times as wide for the former.
 //
 // Shape   n = F + 2 k + --center, k from 2 to 20.
 // Promise square roots are the only operations that round; the centre is 1/2 exactly.
 // Source  G. E. P. Box, K. B. Wilson, J. R. Stat. Soc. B 13 (1951) 1-45,
 //         doi:10.1111/j.2517-6161.1951.tb00067.x; G. E. P. Box, J. S. Hunter, Ann. Math. Stat. 28
 //         (1957) 195-241, doi:10.1214/aoms/1177707047 (rotatability).
-
-#include <fmt/format.h>
 
 #include <cmath>
 
@@ -79,9 +75,6 @@ double alpha_of(const Values& options, double corners, double runs) {
 
 Plan plan(const Request& request, const Values& options) {
     const std::size_t k = request.dimension.value_or(2);
-    if (k < 2 || k > 20)
-        fail(ErrorKind::usage, "--dimension: {} is outside [2, 20], the range of central-composite",
-             k);
     const std::uint64_t corners = corners_for(k, options).runs();
     const Plan plan =
         plan_with_center(request, options, corners + 2 * k, k,
@@ -130,11 +123,7 @@ Generator unit() {
                 "doi:10.1214/aoms/1177707047",
             .related = {"doe", "experiment", "response-surface", "rsm", "ccdesign", "rotatable",
                         "axial", "star-points"},
-            .traits = {.min_dimension = 2,
-                       .max_dimension = 20,
-                       .prefix = false,
-                       .seeded = false,
-                       .levels = true},
+            .traits = level_traits(2, 20),
             .options = Schema(type, alpha, fraction, center_option, ends_option),
             .aliases = {"ccd"},
             .stream_version = 2,

@@ -4,9 +4,7 @@
 // first factor changes fastest. levels.hpp defines the coordinates of levels.
 //
 // Shape   n = m_1 m_2 ... m_k runs, up to 2^53. Without --levels, a given count must be m^k.
-//         Without either, every factor has two levels, or all outcomes of its parameter if these
-//         are at most ten.
-// Cost    O(n k).
+//         Without either, a factor has two levels, or the outcomes of its parameter, up to ten.
 // Source  D. C. Montgomery, "Design and Analysis of Experiments", Wiley, chapter 5.
 
 #include <algorithm>
@@ -96,8 +94,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
     });
     std::vector<std::string> ranges;
     for (const std::uint64_t m : sizes) ranges.push_back(coded_range(m, ends));
-    if (std::ranges::count(ranges, ranges[0]) == static_cast<std::ptrdiff_t>(ranges.size()))
-        ranges.resize(1);
+    if (std::ranges::count(ranges, ranges[0]) == std::ssize(ranges)) ranges.resize(1);
     points->set_found([ranges] { return Findings{{"coded_bounds", join(ranges, ",")}}; });
     return points;
 }

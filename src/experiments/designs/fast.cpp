@@ -48,20 +48,14 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-struct Frequencies {
-    std::uint64_t own;                  ///< frequency of the curve's factor
-    std::vector<std::uint64_t> others;  ///< frequencies of the other factors, in the factors' order
-};
-
-Frequencies frequencies(std::uint64_t runs, std::size_t factors, std::uint64_t m) {
-    Frequencies f{.own = (runs - 1) / (2 * m), .others = {}};
-    const std::uint64_t most = f.own / (2 * m);
-    const std::size_t others = factors - 1;
-    for (std::uint64_t i = 0; i < others; ++i)
-        f.others.push_back(most < others ? 1 + i % most
-                           : others == 1 ? 1
-                                         : 1 + i * (most - 1) / (others - 1));
-    return f;
+/// Frequencies from 1 to `most` of the factors other than a curve's own, in their order.
+std::vector<std::uint64_t> other_frequencies(std::size_t count, std::uint64_t most) {
+    std::vector<std::uint64_t> others;
+    for (std::uint64_t i = 0; i < count; ++i)
+        others.push_back(most < count ? 1 + i % most
+                         : count == 1 ? 1
+                                      : 1 + i * (most - 1) / (count - 1));
+    return others;
 }
 
 /// 1/2 + asin(sin(2 pi t)) / pi for t in [0, 2), kept below 1.
@@ -74,14 +68,16 @@ double triangle_wave(double t) {
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     const std::size_t k = plan.dimension;
     const std::uint64_t n = plan.count / k;
-    const Frequencies f = frequencies(n, k, static_cast<std::uint64_t>(options[harmonics]));
+    const auto m = static_cast<std::uint64_t>(options[harmonics]);
+    const std::uint64_t own = (n - 1) / (2 * m);
+    const auto others = other_frequencies(k - 1, own / (2 * m));
     auto points =
         sequence_of([=, phases = Rng(plan.seed, 0)](std::uint64_t run, std::span<double> rows) {
             for (; !rows.empty(); rows = rows.subspan(k), ++run) {
                 const std::uint64_t curve = run / n;
                 const std::uint64_t j = run % n;
                 for (std::size_t i = 0; i < k; ++i) {
-                    const std::uint64_t w = i == curve ? f.own : f.others[i < curve ? i : i - 1];
+                    const std::uint64_t w = i == curve ? own : others[i < curve ? i : i - 1];
                     const double turns = static_cast<double>(low_half(wide_product(w, j) % n)) /
                                          static_cast<double>(n);
                     rows[i] = triangle_wave(turns + phases.uniform(curve * k + i));
@@ -89,10 +85,10 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
             }
         });
     points->set_found([=] {
-        Findings findings{{"frequency", std::to_string(f.own)}};
-        if (!f.others.empty())
+        Findings findings{{"frequency", std::to_string(own)}};
+        if (!others.empty())
             findings.emplace_back("highest_other_frequency",
-                                  std::to_string(std::ranges::max(f.others)));
+                                  std::to_string(std::ranges::max(others)));
         return findings;
     });
     return points;

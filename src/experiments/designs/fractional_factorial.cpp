@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Regular fractional factorial design 2^(k-p): k factors of two levels in n = 2^(k-p) runs, a
-// subset of the full factorial (regular_fraction.hpp). The factors are A, B, ..., Z, a, ..., z,
-// without I and i, because I denotes the mean. The fraction is given by --generators (D=ABC,E=-AB,
-// with the defining relation I=ABCD=-ABE=-CDE) or taken from a table (fractions.txt): for a count,
-// the one with the highest known resolution; for a resolution, the one with the fewest runs. Among
-// equal ones it has the least known aberration.
+// Regular fractional factorial design 2^(k-p): k factors of two levels in n = 2^(k-p) runs of the
+// full factorial (regular_fraction.hpp). The factors are A, B, ..., Z, a, ..., z, without I and i,
+// because I denotes the mean. The fraction is given by --generators (D=ABC,E=-AB, with the defining
+// relation I=ABCD=-ABE=-CDE) or taken from a table, fractions.txt: for a count, that of the highest
+// known resolution; for a resolution, that of the fewest runs; of these, of the least aberration.
 //
 //     III   main effects are aliased with interactions of two factors, but not with each other
 //     IV    main effects are aliased with interactions of three factors; interactions of two
@@ -13,17 +12,13 @@
 //     V     main effects and interactions of two factors are not aliased with each other
 //
 // Shape   n x k, 2 <= k <= 50; n is a power of two, at most 2^16 for fractions of the table.
-//         Runs are in standard order of the basic factors (those without a generator), the first
-//         fastest.
+//         Runs are in standard order of the factors without a generator, the first fastest.
 // Promise the provenance has the resolution and the number of words of each length; for p <= 6 also
-//         the words and the shortest aliases of main effects. For fractions of the table it also
-//         has whether a higher resolution or less aberration is impossible in this number of runs
-//         (search: complete) or not excluded (limited; a note reports this).
+//         the words and the shortest aliases of main effects; for fractions of the table whether a
+//         better one of as many runs is impossible (search: complete) or not (limited, noted).
 // Source  G. E. P. Box, J. S. Hunter, Technometrics 3 (1961) 311-351,
 //         doi:10.1080/00401706.1961.10489951; A. Fries, W. G. Hunter, Technometrics 22 (1980)
 //         601-608, doi:10.1080/00401706.1980.10486210 (aberration).
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
@@ -98,8 +93,8 @@ void require_different_columns(const RegularFraction& design) {
 /// Sign of a word of the defining relation: "-" if the product of its factors is -1, else "".
 const char* sign_of(const RegularFraction& design, std::uint64_t word) {
     bool negative = false;
-    for (std::size_t k = 0; k < design.negative.size(); ++k)
-        negative ^= design.negative[k] && (word >> k & 1) != 0;
+    for (std::size_t k = 0; k < design.factors(); ++k)
+        negative ^= design.reversed(k) && (word >> k & 1) != 0;
     return negative ? "-" : "";
 }
 
@@ -112,8 +107,8 @@ std::vector<Equation> parse_equations(std::string_view text) {
     return all;
 }
 
-/// Fraction of `factors` factors that is defined by generators. @throws Error(usage) if these
-/// contradict each other or make two columns equal
+/// Fraction defined by generators. @throws Error(usage) if these contradict each other or make two
+/// columns equal
 RegularFraction fraction_of(const std::vector<Equation>& given, std::size_t factors) {
     RegularFraction design = full_fraction(factors);
     design.negative.resize(factors);
@@ -125,14 +120,10 @@ RegularFraction fraction_of(const std::vector<Equation>& given, std::size_t fact
     for (std::size_t j = 0; j < design.basic.size(); ++j)
         design.columns[design.basic[j]] = std::uint64_t{1} << j;
     for (const Equation& e : given) {
-        std::uint64_t left = e.product;
-        std::uint64_t& column = design.columns[e.factor] = 0;
+        design.columns[e.factor] = 0;
         for (std::size_t j = 0; j < design.basic.size(); ++j)
-            if ((e.product >> design.basic[j] & 1) != 0) {
-                column |= std::uint64_t{1} << j;
-                left &= ~(std::uint64_t{1} << design.basic[j]);
-            }
-        if (left != 0)
+            design.columns[e.factor] |= (e.product >> design.basic[j] & 1) << j;
+        if (const auto left = e.product & ~design.product(e.factor); left != 0)
             fail(ErrorKind::usage,
                  "--generators: {}={} contains {}, which is a product itself or not a factor",
                  letters[e.factor], name_of(e.product), name_of(left));
@@ -146,12 +137,8 @@ std::string equations_of(const RegularFraction& design) {
     std::string text;
     for (std::size_t k = 0; k < design.factors(); ++k) {
         if (std::ranges::count(design.basic, k) > 0) continue;
-        std::uint64_t product = 0;
-        for (std::size_t j = 0; j < design.basic.size(); ++j)
-            product |= (design.columns[k] >> j & 1) << design.basic[j];
-        const bool negative = !design.negative.empty() && design.negative[k];
-        text += fmt::format("{}{}={}{}", text.empty() ? "" : ",", letters[k], negative ? "-" : "",
-                            name_of(product));
+        text += fmt::format("{}{}={}{}", text.empty() ? "" : ",", letters[k],
+                            design.reversed(k) ? "-" : "", name_of(design.product(k)));
     }
     return text;
 }
@@ -220,12 +207,9 @@ KnownFraction for_count(std::uint64_t count, std::size_t factors, const Values& 
     if (known && known->has(asked)) return *known;
     const auto fewest = fewest_runs(factors, asked);
     const std::string others = fewest ? fmt::format("; {} suffice", fewest->design.runs()) : "";
-    if (known && known->bound >= asked)
-        fail(ErrorKind::usage,
-             "--count: {} runs are not known to suffice for {} factors at resolution {}{}", count,
-             factors, roman_numeral(asked), others);
-    fail(ErrorKind::usage, "--count: {} runs are too few for {} factors at resolution {}{}", count,
-         factors, roman_numeral(asked), others);
+    fail(ErrorKind::usage, "--count: {} runs are {} for {} factors at resolution {}{}", count,
+         known && known->bound >= asked ? "not known to suffice" : "too few", factors,
+         roman_numeral(asked), others);
 }
 
 /// Fraction selected by the options. @throws Error(usage)
@@ -243,7 +227,7 @@ KnownFraction decide(std::optional<std::uint64_t> count, std::size_t factors,
     return *known;
 }
 
-/// Number of factors: the dimension, or as many as the equations have. @throws Error(usage)
+/// The dimension, or the number of factors in the equations. @throws Error(usage)
 std::size_t factors_of(const Request& request, const Values& options) {
     if (!options.given(equations)) return request.dimension.value_or(3);
     std::uint64_t named = 0;
@@ -293,8 +277,8 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
         findings_of(known, options.given(equations), ends));
 }
 
-/// Smallest number of runs for which a fraction of this resolution is neither known nor excluded; 0
-/// if there is none below the known fraction's number of runs.
+/// Smallest number of runs, below that of the known fraction, for which a fraction of this
+/// resolution is neither known nor excluded; 0 if there is none.
 std::uint64_t fewer_in_doubt(std::size_t factors, const KnownFraction& known, std::size_t asked) {
     for (std::size_t basic = 1; basic < known.design.basic.size(); ++basic)
         if (const auto smaller = known_fraction(factors, basic); smaller && smaller->bound >= asked)
@@ -338,11 +322,7 @@ Generator unit() {
                 "doi:10.1080/00401706.1980.10486210",
             .related = {"doe", "experiment", "fraction", "screening", "resolution",
                         "minimum-aberration", "alias", "confounding"},
-            .traits = {.min_dimension = 2,
-                       .max_dimension = letters.size(),
-                       .prefix = false,
-                       .seeded = false,
-                       .levels = true},
+            .traits = level_traits(2, letters.size()),
             .options = Schema(equations, resolution, ends_option),
             .aliases = {"fracfact"},
             .stream_version = 2,

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Hadamard matrices: n x n matrices of -1 and 1 whose rows, and whose columns, are pairwise
-// orthogonal. Here the first column is all 1. With chi the quadratic character of the field of q
-// elements:
+// Hadamard matrices: n x n matrices of -1 and 1 with orthogonal rows. Here the first column is all
+// 1. With chi the quadratic character of the field of q elements:
 //
 //     n = q + 1, q = 3 mod 4     Paley I: chi(k - i), where chi(0) counts as 1; for a prime q each
 //                                row is the previous one shifted by one, and the last is all -1
@@ -35,7 +34,8 @@ inline constexpr std::uint64_t most_hadamard = std::uint64_t{1} << 20;
 /// Whether a matrix of this order can be built; only multiples of 4 can.
 bool has_hadamard(std::uint64_t order);
 
-class GoethalsSeidel;
+struct GoethalsSeidel;
+enum class HadamardKind { none, paley_one, twin_primes, paley_two, four_functions, miyamoto };
 
 class Hadamard {
   public:
@@ -44,7 +44,6 @@ class Hadamard {
 
     /// Whether an entry is 1 rather than -1.
     [[nodiscard]] bool positive(std::uint64_t row, std::uint64_t column) const;
-
     /// Name of the construction, such as "Paley I, q = 11", with ", doubled" for each doubling.
     [[nodiscard]] const std::string& construction() const { return construction_; }
 
@@ -53,16 +52,15 @@ class Hadamard {
     [[nodiscard]] bool paley_two(std::uint64_t row, std::uint64_t column) const;
     [[nodiscard]] bool miyamoto(std::uint64_t row, std::uint64_t column) const;
 
-    enum class Kind { cyclic, field, conference, four_functions, miyamoto };
+    void take_field(std::uint64_t q, const char* name);
 
-    Kind kind_ = Kind::cyclic;
-    std::uint64_t base_ = 0;    ///< order before doubling
-    std::uint64_t prime_ = 0;   ///< prime of which q is a power
+    std::uint64_t base_;  ///< order before doubling
+    HadamardKind kind_;
+    std::uint64_t prime_ = 0;   ///< prime of which q is a power; p (p + 2) for twin primes
     std::vector<bool> square_;  ///< whether the character of an element is 1, or the element is 0
-    std::shared_ptr<const GoethalsSeidel> four_;
+    const GoethalsSeidel* four_ = nullptr;
     std::shared_ptr<const Hadamard> smaller_;  ///< Hadamard matrix of order q - 1
-    /// Elements of the field: nonzero squares, then nonsquares.
-    std::vector<std::uint64_t> elements_;
+    std::vector<std::uint64_t> elements_;      ///< of the field: nonzero squares, then nonsquares
     std::string construction_;
 };
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "experiments/designs/levels.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "core/error.hpp"

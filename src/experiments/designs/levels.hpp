@@ -42,19 +42,26 @@ inline constexpr Param<std::int64_t> center_option{
     .unit = "runs",
     .help = "Number of runs at the centre, which come last; experiments with noise use 3 to 6"};
 
+/// Traits of designs that consist of levels and use no random numbers.
+inline GeneratorTraits level_traits(std::size_t min_dimension, std::size_t max_dimension) {
+    return {.min_dimension = min_dimension,
+            .max_dimension = max_dimension,
+            .prefix = false,
+            .seeded = false,
+            .levels = true};
+}
+
 using Findings = std::vector<std::pair<std::string, std::string>>;
 
 /// Coordinate of a level; 1/2 if the factor has only one level.
 double level_place(std::uint64_t level, std::uint64_t levels, bool ends);
-
-/// Coordinates of all levels.
 std::vector<double> level_places(std::uint64_t levels, bool ends);
 
 /// The --bounds that map the levels to -1, ..., 1, such as "-2..2".
 std::string coded_range(std::uint64_t levels, bool ends);
 
 /// Plan for a fixed number of runs. @throws Error(usage) if the request has another count
-/// @param design description of the design in that message, such as "2^3 runs"
+/// @param design name of the design in that message
 Plan plan_of_runs(const Request& request, std::uint64_t runs, std::size_t factors,
                   const std::string& design);
 
@@ -62,8 +69,7 @@ Plan plan_of_runs(const Request& request, std::uint64_t runs, std::size_t factor
 Plan plan_with_center(const Request& request, const Values& options, std::uint64_t others,
                       std::size_t factors, const std::string& design);
 
-/// Checks that count and start are multiples of `block`; `who` is the design's name in messages.
-/// @throws Error(usage)
+/// Checks that count and start are multiples of `block`. @throws Error(usage) naming `who`
 void require_whole_blocks(const Plan& plan, std::uint64_t block, const std::string& who);
 
 /// Maps levels to coordinates, separately for each factor of a plan.
@@ -71,8 +77,7 @@ class LevelPlaces {
   public:
     explicit LevelPlaces(const Plan& plan);
 
-    /// Number of outcomes that serve as levels of a factor; 0 if the factor's levels are plain
-    /// coordinates.
+    /// Number of outcomes that serve as levels of a factor; 0 if its levels are coordinates.
     [[nodiscard]] std::size_t outcomes(std::size_t factor) const {
         return factor < ends_.size() && !ends_[factor].empty() ? ends_[factor].size() - 1 : 0;
     }
@@ -84,7 +89,6 @@ class LevelPlaces {
     std::vector<std::vector<double>> ends_;  ///< ends of the outcomes' intervals, for each factor
 };
 
-/// Returns the index of a factor's level in a run.
 using LevelOf = std::function<std::size_t(std::uint64_t run, std::size_t factor)>;
 
 std::unique_ptr<Sequence> level_sequence(const Plan& plan, std::span<const double> places,

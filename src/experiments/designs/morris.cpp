@@ -13,11 +13,8 @@
 //                coordinate from a point B, which is four points ahead of A in the Sobol' sequence
 //
 // Shape   n = r (k + 1).
-// Cost    O(n k).
-// Promise trajectory t does not depend on the number of trajectories: a larger design extends a
-//         smaller one.
-// Beware  a function with the period delta in a factor seems not to depend on it; with --middles
-//         the period is 1/2 for every p.
+// Promise trajectories do not depend on their number: a larger design extends a smaller one.
+// Beware  a function with the period delta in a factor seems not to depend on it.
 // Source  M. D. Morris, Technometrics 33 (1991) 161-174, doi:10.1080/00401706.1991.10484804;
 //         F. Campolongo, A. Saltelli, J. Cariboni, Comput. Phys. Commun. 182 (2011) 978-988,
 //         doi:10.1016/j.cpc.2010.12.039 (radial).
@@ -59,17 +56,13 @@ constexpr Param<bool> middles{.name = "middles",
                                   "Place levels at the middles of equal cells, for unbounded "
                                   "distributions; by default they range from 0 to just below 1"};
 
-void check_options(const Values& options) {
+Plan plan(const Request& request, const Values& options) {
     if (options[levels] % 2 != 0)
         fail(ErrorKind::usage, "--levels: {} is odd; steps of half the levels need an even number",
              options[levels]);
     if (options[radial] && (options.given(levels) || options[middles]))
         fail(ErrorKind::usage, "--{}: the points of --radial have no levels",
              options.given(levels) ? levels.name : middles.name);
-}
-
-Plan plan(const Request& request, const Values& options) {
-    check_options(options);
     const std::size_t k = request.dimension.value_or(2);
     const auto asked = static_cast<std::uint64_t>(options[trajectories]);
     const std::uint64_t runs = (options.given(trajectories) ? asked : 10) * (k + 1);
@@ -80,7 +73,6 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-/// One trajectory, generated run by run.
 class Trajectory {
   public:
     Trajectory(std::uint64_t key, std::size_t dimension, std::uint64_t p)

@@ -2,9 +2,8 @@
 //
 // Plackett-Burman design: n runs of up to n - 1 factors with two levels, in which any two factors
 // have each of the four pairs of levels n / 4 times. The columns are those of a Hadamard matrix
-// except its column of 1 (hadamard.hpp). If n - 1 is a prime, as for 12, 20, 24 and 44 runs, or n
-// is 36, they are the published cyclic ones: each run is the previous one shifted by one, and the
-// last run has all factors at the low level.
+// except its column of 1 (hadamard.hpp). If n - 1 is a prime, or n is 36, they are the published
+// cyclic ones: each run is the previous one shifted by one, and the last has all low levels.
 //
 // Shape   n x k, k < n; n a multiple of 4 for which hadamard.hpp has a matrix. The default count is
 //         the smallest for k factors; the default k is n - 1.
@@ -72,10 +71,7 @@ Generator unit() {
             .summary = "Screening design: n runs for up to n - 1 two-level factors",
             .source = "Plackett, Burman 1946, doi:10.1093/biomet/33.4.305",
             .related = {"doe", "experiment", "screening", "hadamard", "paley", "two-level"},
-            .traits = {.max_dimension = most_hadamard - 1,
-                       .prefix = false,
-                       .seeded = false,
-                       .levels = true},
+            .traits = level_traits(1, most_hadamard - 1),
             .options = Schema(ends_option),
             .aliases = {"pbdesign"},
             .plan = plan,

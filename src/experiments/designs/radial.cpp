@@ -10,19 +10,6 @@
 namespace stipple::generators {
 namespace {
 
-/// Checks that the points of `base` do not depend on their number. @throws Error(usage)
-void require_sequence(const std::string& base, Request request) {
-    request.start = 1;
-    try {
-        Sampler(base, request);
-    } catch (const Error&) {
-        fail(ErrorKind::usage,
-             "--base: the points of {} depend on their number; expected an infinite sequence such "
-             "as sobol, halton or random",
-             base);
-    }
-}
-
 void fill(const Sampler& base, const RadialShape& shape, const RadialRun& write_run,
           std::uint64_t first, std::span<double> rows) {
     constexpr std::uint64_t together = 256;
@@ -46,9 +33,17 @@ void fill(const Sampler& base, const RadialShape& shape, const RadialRun& write_
 
 std::unique_ptr<Sequence> radial_sequence(const RadialShape& shape, const std::string& base,
                                           std::uint64_t seed, RadialRun write_run) {
-    const Request request{.dimension = 2 * shape.dimension, .seed = seed};
+    Request request{.dimension = 2 * shape.dimension, .seed = seed};
     const auto points = std::make_shared<const Sampler>(base, request);
-    require_sequence(base, request);
+    request.start = 1;  // which only sequences accept
+    try {
+        Sampler(base, request);
+    } catch (const Error&) {
+        fail(ErrorKind::usage,
+             "--base: the points of {} depend on their number; expected an infinite sequence such "
+             "as sobol, halton or random",
+             base);
+    }
     return sequence_of([points, shape, write_run = std::move(write_run)](std::uint64_t first,
                                                                          std::span<double> rows) {
         fill(*points, shape, write_run, first, rows);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Radial designs: for each i, runs in which coordinates of one point A_i of the unit cube are
-// replaced by those of another point B_i. Both come from one sequence in twice as many dimensions:
-// A_i is the first half of its point i, B_i the second half of its point i + ahead. Since the base
-// is a sequence, a larger design extends a smaller one.
+// Radial designs: for each i, runs in which coordinates of a point A_i of the cube are replaced by
+// those of a point B_i. A_i is the first half of point i of a sequence in twice as many
+// dimensions, B_i the second half of its point i + ahead. A larger design extends a smaller one.
 #pragma once
 
 #include <cstddef>

@@ -4,8 +4,7 @@
 #include <algorithm>
 
 #include "core/machine/int128.hpp"
-#include "core/text.hpp"
-#include "experiments/designs/hex_digits.hpp"
+#include "experiments/designs/embedded_table.hpp"
 
 namespace stipple::generators {
 
@@ -15,16 +14,11 @@ namespace {
 
 constexpr std::uint64_t bit(std::size_t i) { return std::uint64_t{1} << i; }
 
-/// Words, as sets of factors: each factor that is not basic with the factors of its product.
+/// Words of the factors that are not basic, each with the factors of its product.
 std::vector<std::uint64_t> generating_words(const RegularFraction& design) {
     std::vector<std::uint64_t> words;
-    for (std::size_t k = 0; k < design.factors(); ++k) {
-        if (std::ranges::count(design.basic, k) > 0) continue;
-        std::uint64_t word = bit(k);
-        for (std::size_t j = 0; j < design.basic.size(); ++j)
-            if ((design.columns[k] & bit(j)) != 0) word |= bit(design.basic[j]);
-        words.push_back(word);
-    }
+    for (std::size_t k = 0; k < design.factors(); ++k)
+        if (std::ranges::count(design.basic, k) == 0) words.push_back(bit(k) | design.product(k));
     return words;
 }
 
@@ -37,9 +31,8 @@ void for_each_sum(const std::vector<std::uint64_t>& parts, const Visit& visit) {
         visit(sum ^= parts[static_cast<std::size_t>(std::countr_zero(i))]);
 }
 
-/// Word length counts A_t from the numbers B_w of sums of rows that contain w factors
-/// (MacWilliams):
-///     sum_t A_t z^t  =  2^-r sum_w B_w (1 - z)^w (1 + z)^(k - w).
+/// Word length counts A_t from the numbers B_w of sums of rows that contain w factors:
+/// sum_t A_t z^t = 2^-r sum_w B_w (1 - z)^w (1 + z)^(k - w) (MacWilliams).
 WordLengths from_rows(const std::vector<std::uint64_t>& sums, std::size_t basic) {
     const std::size_t k = sums.size() - 1;
     std::vector<Int128> total(k + 1);
@@ -57,8 +50,7 @@ WordLengths from_rows(const std::vector<std::uint64_t>& sums, std::size_t basic)
     return lengths;
 }
 
-/// Line of the table: number of basic factors, least and most factors that it covers, and the
-/// columns of factors that are not basic, each of (basic + 3) / 4 hexadecimal digits.
+/// Line of the table.
 struct FractionRow {
     std::size_t basic;
     std::size_t least;
@@ -69,14 +61,9 @@ struct FractionRow {
 const std::vector<FractionRow>& fraction_rows() {
     static const auto all = [] {
         std::vector<FractionRow> rows;
-        for (const std::string_view line : split(fraction_table(), '\n')) {
-            if (line.empty() || line.front() == '#') continue;
-            const auto words = split(line, ' ');
-            const auto number = [&](std::size_t i) {
-                return std::size_t{*parse_unsigned(words[i])};
-            };
-            rows.push_back({number(0), number(1), number(2), words[3]});
-        }
+        for (const auto& words : table_lines(fraction_table()))
+            rows.push_back(
+                {number_of(words[0]), number_of(words[1]), number_of(words[2]), words[3]});
         return rows;
     }();
     return all;
@@ -90,8 +77,7 @@ const FractionRow* row_of(std::size_t factors, std::size_t basic) {
     return found == fraction_rows().end() ? nullptr : &*found;
 }
 
-/// Proven upper bound of the resolution: the resolution of the table's fraction, except in the
-/// cases below, in which a higher one is not excluded.
+/// Proven upper bound of the resolution: that of the table's fraction, except in the cases below.
 std::size_t bound_of(std::size_t factors, std::size_t basic, std::size_t resolution) {
     struct Open {
         std::size_t basic, first, last, bound;
@@ -103,9 +89,9 @@ std::size_t bound_of(std::size_t factors, std::size_t basic, std::size_t resolut
     return resolution;
 }
 
-/// Whether the table's fraction is proven to have minimum aberration: by the complete catalogues of
-/// up to 32 runs, and of 64 runs at resolution IV (Chen, Sun, Wu 1993), or by the theorems on up to
-/// four generators (J. Chen, C. F. J. Wu, Ann. Stat. 19 (1991) 1028-1041).
+/// Whether the table's fraction is proven to have minimum aberration: by the catalogues of up to 32
+/// runs, and of 64 runs at resolution IV (Chen, Sun, Wu 1993), or by theorems on up to four
+/// generators (J. Chen, C. F. J. Wu, Ann. Stat. 19 (1991) 1028-1041).
 bool is_least(std::size_t factors, std::size_t basic) {
     return basic <= 5 || (basic == 6 && factors <= 32) || factors - basic <= 4;
 }
@@ -167,7 +153,7 @@ std::optional<KnownFraction> known_fraction(std::size_t factors, std::size_t bas
     auto& columns = known.design.columns;
     const std::size_t digits = (basic + 3) / 4;
     for (std::size_t i = 0; i < factors - basic; ++i)
-        columns.push_back(hex_number(row->columns.substr(i * digits, digits)));
+        columns.push_back(number_of(row->columns.substr(i * digits, digits), 16));
     std::sort(columns.begin() + static_cast<std::ptrdiff_t>(basic), columns.end());
     known.resolution = resolution_of(word_lengths(known.design));
     known.bound = bound_of(factors, basic, known.resolution);

@@ -3,13 +3,9 @@
 // Regular two-level fractions 2^(k-p): r = k - p basic factors take all combinations of their
 // levels. The column of every other factor is a product of some basic factors. A set of factors
 // whose columns have the product 1 is a word of the defining relation. The resolution is the length
-// of the shortest word.
-//
-//     A_t = number of words of length t        the word length pattern
-//
-// Let t be the smallest length for which two designs have different numbers of words. The design
-// with fewer words of length t has less aberration. Columns are sets of basic factors, stored with
-// bit j for basic factor j; products are their XOR.
+// of the shortest word. Of two designs, that with fewer words of the smallest length for which they
+// differ has less aberration. Columns are sets of basic factors, stored with bit j for basic factor
+// j; products are their XOR.
 #pragma once
 
 #include <bit>
@@ -28,11 +24,22 @@ struct RegularFraction {
 
     [[nodiscard]] std::size_t factors() const { return columns.size(); }
     [[nodiscard]] std::uint64_t runs() const { return std::uint64_t{1} << basic.size(); }
-
     /// Level 0 or 1 of a factor in a run.
     [[nodiscard]] std::size_t level(std::uint64_t run, std::size_t factor) const {
         const bool low = std::popcount(columns[factor] & ~run) % 2 != 0;
-        return low == (!negative.empty() && negative[factor]) ? 1 : 0;
+        return low == reversed(factor) ? 1 : 0;
+    }
+
+    [[nodiscard]] bool reversed(std::size_t factor) const {
+        return factor < negative.size() && negative[factor];
+    }
+
+    /// Basic factors whose product is the column of a factor, one bit each.
+    [[nodiscard]] std::uint64_t product(std::size_t factor) const {
+        std::uint64_t product = 0;
+        for (std::size_t j = 0; j < basic.size(); ++j)
+            product |= (columns[factor] >> j & 1) << basic[j];
+        return product;
     }
 };
 
@@ -68,8 +75,7 @@ inline constexpr std::size_t most_basic_factors = 16;
 /// Best known fraction of 2^basic runs; nullopt if main effects would be aliased with each other.
 std::optional<KnownFraction> known_fraction(std::size_t factors, std::size_t basic);
 
-/// Fraction with the fewest runs that has at least this resolution; nullopt if it needs more than
-/// 2^most_basic_factors runs.
+/// Fraction of at least this resolution with the fewest runs; nullopt if the table has none.
 std::optional<KnownFraction> fewest_runs(std::size_t factors, std::size_t resolution);
 
 }  // namespace stipple::generators

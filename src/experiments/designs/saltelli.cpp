@@ -9,8 +9,7 @@
 // latter runs are included with --second-order, for indices of second order.
 //
 // Shape   n = N (k + 2) runs for N base rows, or N (2 k + 2) with --second-order.
-// Promise the first N base rows do not depend on their number: a larger design extends a smaller
-//         one.
+// Promise base rows do not depend on their number: a larger design extends a smaller one.
 // Beware  Sobol' points as the base work best if N is a power of two.
 // Source  A. Saltelli, P. Annoni, I. Azzini, F. Campolongo, M. Ratto, S. Tarantola, Comput. Phys.
 //         Commun. 181 (2010) 259-270, doi:10.1016/j.cpc.2009.09.018; A. Saltelli, Comput. Phys.
