@@ -15,11 +15,22 @@
 namespace stipple::parameters {
 namespace {
 
-/// The smaller of the probabilities below and above; 0, whose score would be infinite, is replaced
-/// by the smallest random number.
+/// The smaller probability; 0, whose score is infinite, is replaced by the smallest random number.
 double tail(const Share& share) {
     const double m = std::min(share.below, share.above);
     return m > 0 ? std::max(m, 1e-300) : 0x1p-54;
+}
+
+/// The nearest symmetric matrix whose eigenvalues are at least `least`, by the sum of squares.
+std::vector<double> lifted(const std::vector<double>& matrix, std::size_t d, double least) {
+    const auto [values, vectors] = jacobi_eigen(matrix, d);
+    std::vector<double> out(d * d);
+    for (std::size_t i = 0; i < d; ++i)
+        for (std::size_t j = 0; j < d; ++j)
+            for (std::size_t k = 0; k < d; ++k)
+                out[i * d + j] +=
+                    std::max(values[k], least) * vectors[i * d + k] * vectors[j * d + k];
+    return out;
 }
 
 }  // namespace
@@ -65,10 +76,8 @@ void Copula::forward(std::span<Share> row) const {
 }
 
 bool Copula::leaves(std::size_t i) const {
-    const auto row = factor_.begin() + static_cast<std::ptrdiff_t>(i * d_);
-    const bool alone =
-        std::all_of(row, row + static_cast<std::ptrdiff_t>(i), [](double x) { return x == 0; });
-    return alone && (!degrees_ || i == 0);
+    const auto preceding = std::span(factor_).subspan(i * d_, i);
+    return std::ranges::all_of(preceding, [](double x) { return x == 0; }) && (!degrees_ || i == 0);
 }
 
 void Copula::inverse(std::span<Share> row) const {
@@ -117,22 +126,6 @@ double score_correlation(double spearman) {
 bool is_correlation(const std::vector<double>& matrix, std::size_t d) {
     return cholesky(matrix, d).failed == 0;
 }
-
-namespace {
-
-/// The nearest symmetric matrix whose eigenvalues are at least `least`, by the sum of squares.
-std::vector<double> lifted(const std::vector<double>& matrix, std::size_t d, double least) {
-    const auto [values, vectors] = jacobi_eigen(matrix, d);
-    std::vector<double> out(d * d);
-    for (std::size_t i = 0; i < d; ++i)
-        for (std::size_t j = 0; j < d; ++j)
-            for (std::size_t k = 0; k < d; ++k)
-                out[i * d + j] +=
-                    std::max(values[k], least) * vectors[i * d + k] * vectors[j * d + k];
-    return out;
-}
-
-}  // namespace
 
 std::vector<double> nearest_correlation(std::vector<double> matrix, std::size_t d) {
     constexpr double least = 1e-6;

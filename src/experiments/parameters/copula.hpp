@@ -7,9 +7,9 @@
 //     Student    v_i = T_nu(t_i),      t_i = m_i + s_i T_(nu+i)^-1(u_i),
 //
 // where m_i and s_i^2 = L_ii^2 (nu + q_i) / (nu + i) are the parameters of Student's distribution
-// given the i preceding coordinates, and q_i is the sum of the squares of y over these coordinates,
-// with L y = t. Both are Rosenblatt's transformation: u_i determines v_i given the preceding
-// coordinates. So strata of the first coordinate are preserved, and an inverse exists.
+// given the i preceding coordinates, and q_i is the sum of the squares of y over these, with L y =
+// t. Both are Rosenblatt's transformation: strata of the first coordinate are preserved, and an
+// inverse exists.
 //
 // Shape   d coordinates. Each is stored as two probabilities, p below and q = 1 - p above it, so
 //         that both tails keep all digits.
@@ -29,7 +29,6 @@
 
 namespace stipple::parameters {
 
-/// The probabilities below and above a coordinate.
 struct Share {
     double below = 0.5;
     double above = 0.5;
@@ -44,26 +43,22 @@ class Copula {
     /// Maps independent coordinates to dependent ones, in place.
     void forward(std::span<Share> row) const;
     void inverse(std::span<Share> row) const;
-
     /// Whether forward() does not change coordinate i.
     [[nodiscard]] bool leaves(std::size_t i) const;
-
     /// Whether coordinate i depends on other coordinates.
     [[nodiscard]] bool joins(std::size_t i) const;
-
     /// Density with respect to the uniform distribution on the cube.
     [[nodiscard]] double density(std::span<const Share> row) const;
 
   private:
-    /// Conditional distribution of the score of coordinate i, given the preceding scores: score =
-    /// middle + L_ii y_i, where y_i / spread has the distribution laws_[i] (or normal).
+    /// Distribution of score i given the preceding ones: score = middle + L_ii y_i, where y_i /
+    /// spread has the distribution laws_[i] (or normal).
     struct Place {
         double middle;
         double spread;
     };
     [[nodiscard]] Place place(std::size_t i, std::span<const double> y, double squares) const;
-    /// Converts probabilities to scores and back, by the distribution for `given` preceding
-    /// coordinates.
+    /// Converts probabilities to scores and back, given so many preceding coordinates.
     [[nodiscard]] double score(const Share& share, std::size_t given) const;
     [[nodiscard]] Share share(double score, std::size_t given) const;
 

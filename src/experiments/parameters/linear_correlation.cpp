@@ -12,7 +12,7 @@
 #include "math/functions/jacobi_eigen.hpp"
 #include "math/functions/logarithm.hpp"
 #include "math/functions/normal_distribution.hpp"
-#include "math/functions/trigonometry.hpp"
+#include "math/functions/radians.hpp"
 
 namespace stipple::parameters {
 namespace {
@@ -39,6 +39,19 @@ double by_gauss(double low, double high, const F& f) {
         sum += Rule::weights()[i] * values;
     }
     return half * sum;
+}
+
+/// Integral of f with respect to the normal distribution. Between cuts, f must be smooth.
+template <class F>
+double normal_mean(std::vector<double> cuts, const F& f) {
+    for (double z = -farthest; z <= farthest; z += 0.5) cuts.push_back(z);
+    std::ranges::sort(cuts);
+    double sum = 0;
+    for (std::size_t i = 1; i < cuts.size(); ++i)
+        if (cuts[i] > cuts[i - 1])
+            sum += by_gauss<10>(cuts[i - 1], cuts[i],
+                                [&](double z) { return f(z) * normal_density(z); });
+    return sum;
 }
 
 /// Normal score with the probabilities `below` and `above` it.
@@ -115,7 +128,7 @@ double slope(const std::vector<Increment>& a, const std::vector<Increment>& b, d
     return sum / (2 * std::numbers::pi);
 }
 
-/// Legendre series of S on an interval of angles: with its integral and the inverse of that.
+/// Legendre series of S on an interval of angles, with its integral.
 class Part {
   public:
     template <class Slope>
@@ -161,8 +174,7 @@ class Part {
         }
         return p;
     }
-    /// Integral of S over [-1, x], in the interval scaled to [-1, 1], times half the interval's
-    /// width.
+    /// Integral of S from the interval's start to x, in the interval scaled to [-1, 1].
     [[nodiscard]] double integral(double x) const {
         const auto p = legendre(x);
         double sum = series_[0] * (x + 1);
@@ -175,11 +187,6 @@ class Part {
     double high_;
     std::array<double, order> series_{};
 };
-
-/// The angle in the first quadrant whose cosine is `cosine`, in (0, 1].
-double angle_of(double cosine) {
-    return 2 * std::numbers::pi * turns_of(cosine, std::sqrt((1 - cosine) * (1 + cosine)));
-}
 
 }  // namespace
 
@@ -202,7 +209,7 @@ Scored::Scored(MarginalPtr law, Of of) : law_(std::move(law)), ranks_(of == Of::
         take_cells();
     else
         take_panels();
-    settle();
+    deviation_ = std::sqrt(normal_mean(cuts_, [this](double z) { return at(z) * at(z); }));
     if (!ranks_ && !(std::abs(deviation_ * deviation_ / moments.variance - 1) < 1e-6))
         fail(ErrorKind::usage,
              "a parameter whose tails are so heavy that much of its variance lies beyond "
@@ -307,27 +314,6 @@ void Scored::add_panel(double low, double high, double x_low, double x_high) {
     increments_.insert(increments_.end(), nodes.begin(), nodes.end());
 }
 
-namespace {
-
-/// Integral of f with respect to the normal distribution. Between cuts, f must be smooth.
-template <class F>
-double normal_mean(std::vector<double> cuts, const F& f) {
-    for (double z = -farthest; z <= farthest; z += 0.5) cuts.push_back(z);
-    std::ranges::sort(cuts);
-    double sum = 0;
-    for (std::size_t i = 1; i < cuts.size(); ++i)
-        if (cuts[i] > cuts[i - 1])
-            sum += by_gauss<10>(cuts[i - 1], cuts[i],
-                                [&](double z) { return f(z) * normal_density(z); });
-    return sum;
-}
-
-}  // namespace
-
-void Scored::settle() {
-    deviation_ = std::sqrt(normal_mean(cuts_, [this](double z) { return at(z) * at(z); }));
-}
-
 std::vector<Increment> Scored::gathered(double width) const {
     std::vector<Increment> few;
     for (auto from = increments_.begin(); from != increments_.end();) {
@@ -358,33 +344,29 @@ double Scored::scores_for(const Scored& other, double r) const {
              extreme(other, -1), extreme(other, 1));
     const double size = deviation_ * other.deviation_;
     const double wanted = std::abs(r);
-    // Kernels become narrower with the angle: each octave halves the cosine, down to the resolution
-    // of the increments.
+    // Each octave halves the cosine and the kernels' width, down to the increments' resolution.
     const int octaves = stepped_ && other.stepped_ ? 21 : 4;
     double low = 0, reached = 0, rate = 0;
     for (int octave = 0; octave < octaves; ++octave) {
         const double width = 1.0 / (2 << octave);
-        const double high = angle_of(width);
+        const double high = arc_cosine(width);
         const auto a = gathered(width);
         const auto b = sign > 0 ? other.gathered(width) : mirrored(other.gathered(width));
         const Part part(low, high, [&](double angle) {
-            const auto [c, s] = cos_sin_turns(angle / (2 * std::numbers::pi));
+            const auto [c, s] = cos_sin_radians(angle);
             return slope(a, b, c, s) / size;
         });
-        const auto sine = [sign](double angle) {
-            return sign * cos_sin_turns(angle / (2 * std::numbers::pi)).sin;
-        };
-        if (reached + part.total() >= wanted) return sine(part.reaching(wanted - reached));
+        if (reached + part.total() >= wanted)
+            return sign * cos_sin_radians(part.reaching(wanted - reached)).sin;
         reached += part.total();
         rate = part.end_slope();
         low = high;
     }
-    // Extrapolates the covariance from the last angle to pi / 2 by a power of the remaining angle
-    // with the same slope.
+    // Up to pi / 2 the covariance is a power of the remaining angle, with the same slope.
     const double width = std::numbers::pi / 2 - low;
     const double power = std::max(1.0, rate * width / (end - reached));
     const double left = exponential(logarithm((end - wanted) / (end - reached)) / power) * width;
-    return sign * std::min(cos_sin_turns(left / (2 * std::numbers::pi)).cos, 1 - 1e-13);
+    return sign * std::min(cos_sin_radians(left).cos, 1 - 1e-13);
 }
 
 }  // namespace stipple::parameters

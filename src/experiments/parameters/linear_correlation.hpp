@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
 // Finds the correlation of normal scores for which two parameters have a given correlation. With X
-// = F^-1(Phi(Z)), Y = G^-1(Phi(W)), and Z, W standard normal with correlation sin t (Plackett
-// 1954),
+// = F^-1(Phi(Z)), Y = G^-1(Phi(W)), and Z, W standard normal with correlation sin t (Plackett),
 //
 //     Cov(X, Y) = integral over [0, t] of S,
 //     S(t) = 1 / (2 pi) sum of dX(z) dY(w) exp(-(z^2 - 2 z w sin t + w^2) / (2 cos^2 t)),
 //
-// where the sum is over the increments of X and Y. For a discrete distribution these are its steps.
-// For a continuous one they are at the nodes of Gauss's rule on panels, which are halved until the
-// rule yields the difference of X over the panel. Many increments within a fraction of cos t are
-// replaced by four with the same moments (a Gauss rule). At the ends, t = +-pi / 2, the covariance
-// is an integral over z alone.
+// where the sum is over the increments of X and Y: the steps of a discrete distribution; otherwise
+// at the nodes of Gauss's rule on panels, which are halved until the rule yields the change of X
+// over the panel. Many increments within a fraction of cos t are replaced by four with the same
+// moments. At the ends, t = +-pi / 2, the covariance is an integral over z alone.
 //
 // Cost    some thousand quantiles per parameter, and 1 to 30 ms per pair.
 // Promise correlations within 1e-9 for steps, 1e-6 for other distributions that are smooth where
@@ -34,14 +32,12 @@ class Scored {
     /// Correlated quantity: the values x, or their mean ranks (F(x) + F(x-)) / 2.
     enum class Of { numbers, ranks };
 
-    /// @throws Error(usage) if the variance is 0, infinite, or largely from probabilities below
-    /// 1e-300
+    /// @throws Error(usage) if the variance is 0, infinite, or mostly beyond tails of 1e-300
     Scored(MarginalPtr law, Of of);
 
     /// Correlation of the scores for which this parameter and the other one have the correlation r.
     /// @throws Error(usage) naming the possible range if r is outside
     [[nodiscard]] double scores_for(const Scored& other, double r) const;
-
     /// Correlation of both parameters if that of their scores is `sign`, 1 or -1.
     [[nodiscard]] double extreme(const Scored& other, double sign) const;
 
@@ -55,11 +51,8 @@ class Scored {
     void take_cells();
     void take_panels();
     void add_panel(double low, double high, double x_low, double x_high);
-    void settle();
-
-    /// number(z) minus the mean.
+    /// Value or mean rank at the score z; at(z) is relative to the mean.
     [[nodiscard]] double at(double z) const;
-    /// Value, or mean rank, at the score z.
     [[nodiscard]] double number(double z) const;
     /// Increments reduced for kernels that are at least `width` wide.
     [[nodiscard]] std::vector<Increment> gathered(double width) const;

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "experiments/parameters/parameter_file.hpp"
-
-#include <fmt/format.h>
+#include "experiments/parameters/parameter_space.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <numeric>
 #include <set>
 
 #include "core/bytes/file_bytes.hpp"
@@ -17,6 +14,7 @@
 #include "experiments/parameters/linear_correlation.hpp"
 #include "io/columns.hpp"
 #include "io/files.hpp"
+#include "math/combinatorics/order.hpp"
 #include "math/distributions/families.hpp"
 #include "math/distributions/outcomes.hpp"
 #include "math/functions/trigonometry.hpp"
@@ -49,9 +47,12 @@ class Place {
         }
     }
 
-    [[nodiscard]] bool has(const char* key) const { return value_.contains(key); }
+    [[nodiscard]] bool has(const std::string& key) const { return value_.contains(key); }
     [[nodiscard]] Place at(const std::string& key) const {
         return {value_.at(key), path_ + "." + key, source_};
+    }
+    [[nodiscard]] std::optional<Place> find(const std::string& key) const {
+        return has(key) ? std::optional(at(key)) : std::nullopt;
     }
     [[nodiscard]] std::vector<Place> list(const char* expected) const {
         if (!value_.is_array() || value_.empty()) refuse(expected);
@@ -60,9 +61,19 @@ class Place {
             places.emplace_back(value_[i], fmt::format("{}[{}]", path_, i), source_);
         return places;
     }
-    [[nodiscard]] std::string text(const char* expected) const {
+    [[nodiscard]] std::string text(const std::string& expected) const {
         if (!value_.is_string()) refuse(expected);
         return value_.get<std::string>();
+    }
+    /// Word of a key, which must be one of `words`; empty if the key is missing.
+    [[nodiscard]] std::string choice(const char* key, const std::vector<std::string>& words) const {
+        const auto place = find(key);
+        if (!place) return {};
+        const std::string allowed = join(words, " or ");
+        std::string word = place->text("expected " + allowed);
+        if (std::ranges::find(words, word) == words.end())
+            place->refuse(fmt::format("{} is not {}", shown(word), allowed));
+        return word;
     }
     [[nodiscard]] double number() const {
         const double x = value_.is_number() ? value_.get<double>() : NAN;
@@ -119,7 +130,7 @@ class ParameterReader {
                                                 "levels", "values",       "file"};
         if (!place_.value().is_object()) place_.refuse("expected an object, {\"name\": ...}");
         const auto given =
-            std::ranges::count_if(kinds, [&](const auto& k) { return place_.has(k.c_str()); });
+            std::ranges::count_if(kinds, [&](const auto& k) { return place_.has(k); });
         if (given != 1)
             place_.refuse(fmt::format("expected one of the keys {}; {}", join(kinds, ", "),
                                       given == 0 ? "none is given" : "several are given"));
@@ -156,10 +167,10 @@ class ParameterReader {
     }
 
     std::string unit() const {
-        if (!place_.has("unit")) return {};
-        const Place at = place_.at("unit");
-        std::string unit = at.text("expected a unit, such as \"mm\"");
-        if (unit != printable(unit)) at.refuse("the unit has unprintable characters");
+        const auto at = place_.find("unit");
+        if (!at) return {};
+        std::string unit = at->text("expected a unit, such as \"mm\"");
+        if (unit != printable(unit)) at->refuse("the unit has unprintable characters");
         return unit;
     }
 
@@ -183,12 +194,26 @@ class ParameterReader {
         place_.check_keys(more, "expected an object");
     }
 
-    /// A distribution's name and parameters.
     struct Law {
         const char* key;  ///< the key that selects the distribution
         std::string family;
-        std::vector<std::pair<std::string, Entry>> numbers;
+        std::vector<std::pair<std::string, Entry>> numbers = {};
         std::optional<std::pair<Entry, Entry>> within = {};
+
+        [[nodiscard]] bool depends() const {
+            const auto by_formula = [](const Entry& entry) { return entry.formula.has_value(); };
+            return std::ranges::any_of(numbers, by_formula,
+                                       &std::pair<std::string, Entry>::second) ||
+                   (within && (by_formula(within->first) || by_formula(within->second)));
+        }
+
+        [[nodiscard]] MarginalPtr at(std::span<const double> before) const {
+            NamedNumbers values;
+            for (const auto& [name, entry] : numbers) values.emplace_back(name, entry.at(before));
+            MarginalPtr made = make_marginal(family, values);
+            if (!within) return made;
+            return truncated(made, within->first.at(before), within->second.at(before));
+        }
     };
 
     std::pair<Entry, Entry> pair_of(const char* key) const {
@@ -199,9 +224,8 @@ class ParameterReader {
     }
 
     Law ends(std::string family, const char* key) const {
-        auto [low, high] = pair_of(key);
-        Law law{key, std::move(family), {{"low", std::move(low)}, {"high", std::move(high)}}};
-        return law;
+        const auto [low, high] = pair_of(key);
+        return {key, std::move(family), {{"low", low}, {"high", high}}};
     }
 
     Law law() const {
@@ -211,54 +235,33 @@ class ParameterReader {
         }
         if (place_.has("range")) {
             check_keys({"range", "scale"});
-            const std::string scale =
-                place_.has("scale") ? place_.at("scale").text("expected log or linear") : "linear";
-            if (scale != "log" && scale != "linear")
-                place_.at("scale").refuse(fmt::format("{} is not log or linear", shown(scale)));
-            return ends(scale == "log" ? "log-uniform" : "uniform", "range");
+            const bool log = place_.choice("scale", {"log", "linear"}) == "log";
+            return ends(log ? "log-uniform" : "uniform", "range");
         }
         return distribution();
     }
 
     Law distribution() const {
         const Place at = place_.at("distribution");
-        Law law{.key = "distribution",
-                .family = at.text("expected the name of a distribution"),
-                .numbers = {}};
-        std::vector<std::string> families;
-        for (const MarginalFamily& family : marginal_families()) families.emplace_back(family.name);
-        if (std::ranges::find(families, law.family) == families.end())
-            at.refuse(fmt::format("there is no distribution {}", shown(law.family)),
-                      suggest(law.family, families));
-        std::vector<std::string> numbers;
-        for (const MarginalParameter& parameter : marginal_family(law.family).parameters)
-            numbers.emplace_back(parameter.name);
-        std::vector<std::string> keys = numbers;
+        Law law{.key = "distribution", .family = at.text("expected the name of a distribution")};
+        const auto parameters = at.naming([&] { return marginal_family(law.family).parameters; });
+        std::vector<std::string> keys;
+        for (const MarginalParameter& parameter : parameters) keys.emplace_back(parameter.name);
         keys.insert(keys.end(), {"distribution", "truncate"});
         check_keys(keys);
-        for (const std::string& key : numbers)
-            if (place_.has(key.c_str()))
-                law.numbers.emplace_back(key, entry_of(place_.at(key), before_));
+        for (const MarginalParameter& parameter : parameters)
+            if (const auto number = place_.find(std::string(parameter.name)))
+                law.numbers.emplace_back(parameter.name, entry_of(*number, before_));
         if (place_.has("truncate")) law.within = pair_of("truncate");
         return law;
     }
 
     void take_law(Parameter& parameter) const {
         const Law law = this->law();
-        const auto given = [law, name = parameter.name](std::span<const double> before) {
-            NamedNumbers numbers;
-            for (const auto& [key, entry] : law.numbers)
-                numbers.emplace_back(key, entry.at(before));
-            MarginalPtr made = make_marginal(law.family, numbers);
-            if (!law.within) return made;
-            return truncated(made, law.within->first.at(before), law.within->second.at(before));
-        };
-        const auto depends = [](const Entry& entry) { return entry.formula.has_value(); };
-        if (std::ranges::any_of(law.numbers, depends, &std::pair<std::string, Entry>::second) ||
-            (law.within && (depends(law.within->first) || depends(law.within->second))))
-            parameter.law_given = [given, name = parameter.name](std::span<const double> before) {
+        if (law.depends())
+            parameter.law_given = [law, name = parameter.name](std::span<const double> before) {
                 try {
-                    return given(before);
+                    return law.at(before);
                 } catch (const Error& e) {
                     throw Error(ErrorKind::input,
                                 fmt::format("the parameter {}, with the preceding values {}: {}",
@@ -266,7 +269,7 @@ class ParameterReader {
                 }
             };
         else
-            parameter.law = place_.at(law.key).naming([&] { return given({}); });
+            parameter.law = place_.at(law.key).naming([&] { return law.at({}); });
         parameter.uniform = law.family == "uniform";
     }
 
@@ -287,12 +290,9 @@ class ParameterReader {
             check_word(level, parameter.levels.back());
             values.push_back(static_cast<double>(parameter.levels.size() - 1));
         }
-        auto weights = probabilities(levels.size());
-        std::vector<std::size_t> order(values.size());
-        std::iota(order.begin(), order.end(), std::size_t{0});
-        std::ranges::sort(order, {}, [&](std::size_t i) { return values[i]; });
+        const auto weights = probabilities(levels.size());
         std::vector<double> rising, of_rising;
-        for (const std::size_t i : order) {
+        for (const auto i : order_by(values.size(), [&](std::size_t k) { return values[k]; })) {
             rising.push_back(values[i]);
             of_rising.push_back(weights[i]);
         }
@@ -307,29 +307,19 @@ class ParameterReader {
         check_size(at, list.size());
         std::vector<double> numbers;
         for (const Place& number : list) numbers.push_back(number.number());
-        const std::string between =
-            place_.has("interpolation")
-                ? place_.at("interpolation").text("expected steps or linear")
-                : "steps";
-        if (between != "steps" && between != "linear")
-            place_.at("interpolation")
-                .refuse(fmt::format("{} is not steps or linear", shown(between)));
-        parameter.law = at.naming([&] {
-            return measured_law(std::move(numbers), between == "linear", ErrorKind::usage,
-                                "--values");
-        });
+        const bool linear = place_.choice("interpolation", {"steps", "linear"}) == "linear";
+        parameter.law = at.naming(
+            [&] { return measured_law(std::move(numbers), linear, ErrorKind::usage, "--values"); });
     }
 
-    /// Probabilities of the levels from the file; by default equal. Whole numbers are ratios, as in
-    /// 2:1:1.
+    /// Probabilities of the levels, by default equal; whole numbers are ratios, as in 2:1:1.
     std::vector<double> probabilities(std::size_t count) const {
         std::vector<double> p(count, 1);
         bool ratios = true;
-        if (place_.has("probabilities")) {
-            const Place at = place_.at("probabilities");
-            const auto list = at.list("expected a list of numbers");
+        if (const auto at = place_.find("probabilities")) {
+            const auto list = at->list("expected a list of numbers");
             if (list.size() != count)
-                at.refuse(fmt::format("{} probabilities for {} levels", list.size(), count));
+                at->refuse(fmt::format("{} probabilities for {} levels", list.size(), count));
             for (std::size_t i = 0; i < count; ++i) {
                 p[i] = list[i].number();
                 if (p[i] < 0) list[i].refuse("a probability is below 0");
@@ -358,7 +348,6 @@ struct Joint {
     std::optional<Reordering> reordering = {};
 };
 
-/// Reads the key "correlation".
 class CorrelationReader {
   public:
     CorrelationReader(const Place& place, const std::vector<Parameter>& parameters)
@@ -368,7 +357,9 @@ class CorrelationReader {
           spearman_(matrix_.size()),
           given_(matrix_.size()),
           numbers_(parameters.size()),
-          ranks_(parameters.size()) {}
+          ranks_(parameters.size()) {
+        for (const Parameter& parameter : parameters) names_.push_back(parameter.name);
+    }
 
     Joint read() {
         place_.check_keys({"copula", "degrees", "reordering", "spearman", "kendall", "pearson"},
@@ -377,71 +368,58 @@ class CorrelationReader {
         for (std::size_t i = 0; i < d; ++i) matrix_[i * d + i] = spearman_[i * d + i] = 1;
         const bool reordered = read_reordering();
         const auto degrees = read_degrees();
-        if (degrees && place_.has("spearman"))
-            place_.at("spearman")
-                .refuse("for Student's copula no closed form is known", "give \"kendall\"");
+        if (degrees)
+            refuse_keys({"spearman"}, "for Student's copula no closed form is known",
+                        "give \"kendall\"");
         for (const char* kind : {"spearman", "kendall", "pearson"})
-            if (place_.has(kind))
-                for (const Place& pair : place_.at(kind).list("expected a list of pairs"))
+            if (const auto pairs = place_.find(kind))
+                for (const Place& pair : pairs->list("expected a list of pairs"))
                     read_pair(pair, kind, degrees.has_value());
         if (!is_correlation(matrix_, d)) offer_nearest();
         if (!reordered) return {.copula = Copula(matrix_, degrees)};
-        std::vector<std::string> names;
         std::vector<MarginalPtr> laws;
-        for (const Parameter& parameter : parameters_) {
-            names.push_back(parameter.name);
+        for (const Parameter& parameter : parameters_)
             laws.push_back(parameter.law && parameter.law->discrete() ? parameter.law : nullptr);
-        }
-        return {.reordering = Reordering(spearman_, matrix_, std::move(names), std::move(laws))};
+        return {.reordering = Reordering{spearman_, matrix_, names_, std::move(laws)}};
     }
 
   private:
+    void refuse_keys(std::initializer_list<const char*> keys, const std::string& what,
+                     const std::string& hint = {}) const {
+        for (const char* key : keys)
+            if (const auto at = place_.find(key)) at->refuse(what, hint);
+    }
+
     /// Whether the file requests a reordering of sets instead of a copula.
     bool read_reordering() const {
-        if (!place_.has("reordering")) return false;
-        const Place at = place_.at("reordering");
-        const std::string method = at.text("expected iman-conover");
-        if (method != "iman-conover")
-            at.refuse(fmt::format("{} is not iman-conover", shown(method)));
-        for (const char* key : {"copula", "degrees"})
-            if (place_.has(key))
-                place_.at(key).refuse("belongs to copulas, but \"reordering\" is given");
-        for (const char* key : {"kendall", "pearson"})
-            if (place_.has(key))
-                place_.at(key).refuse(
+        if (place_.choice("reordering", {"iman-conover"}).empty()) return false;
+        refuse_keys({"copula", "degrees"}, "belongs to copulas, but \"reordering\" is given");
+        refuse_keys({"kendall", "pearson"},
                     "not possible with a reordering, which gives rank correlations",
                     "give \"spearman\"");
         return true;
     }
 
     std::optional<double> read_degrees() const {
-        const std::string kind = place_.has("copula")
-                                     ? place_.at("copula").text("expected gaussian or student")
-                                     : "gaussian";
-        if (kind != "gaussian" && kind != "student")
-            place_.at("copula").refuse(fmt::format("{} is not gaussian or student", shown(kind)));
-        if (kind == "gaussian") {
-            if (place_.has("degrees"))
-                place_.at("degrees").refuse("applies to \"copula\": \"student\" only");
+        if (place_.choice("copula", {"gaussian", "student"}) != "student") {
+            refuse_keys({"degrees"}, "applies to \"copula\": \"student\" only");
             return std::nullopt;
         }
-        if (!place_.has("degrees"))
-            place_.refuse("the key degrees is missing; \"copula\": \"student\" needs it");
-        const double degrees = place_.at("degrees").number();
+        const auto at = place_.find("degrees");
+        if (!at) place_.refuse("the key degrees is missing; \"copula\": \"student\" needs it");
+        const double degrees = at->number();
         if (!(degrees >= 1 && degrees <= 1e6))
-            place_.at("degrees").refuse(fmt::format("{} is outside [1, 1e6]", degrees));
+            at->refuse(fmt::format("{} is outside [1, 1e6]", degrees));
         return degrees;
     }
 
     std::size_t index_of(const Place& place) const {
         const std::string name = place.text("expected the name of a parameter");
-        const auto at = std::ranges::find(parameters_, name, &Parameter::name);
-        std::vector<std::string> names;
-        for (const Parameter& parameter : parameters_) names.push_back(parameter.name);
-        if (at == parameters_.end())
+        const auto at = std::ranges::find(names_, name);
+        if (at == names_.end())
             place.refuse(fmt::format("there is no parameter {}", shown(name)),
-                         suggest(name, names));
-        return static_cast<std::size_t>(at - parameters_.begin());
+                         suggest(name, names_));
+        return static_cast<std::size_t>(at - names_.begin());
     }
 
     void read_pair(const Place& pair, std::string_view kind, bool student) {
@@ -457,8 +435,7 @@ class CorrelationReader {
         if (given_[i * d + j]) pair.refuse("the pair is given twice");
         given_[i * d + j] = given_[j * d + i] = true;
         spearman_[i * d + j] = spearman_[j * d + i] = r;  // used only for a reordering
-        const double scores = of_scores(pair, i, j, r, kind, student);
-        matrix_[i * d + j] = matrix_[j * d + i] = scores;
+        matrix_[i * d + j] = matrix_[j * d + i] = of_scores(pair, i, j, r, kind, student);
     }
 
     /// Correlation of the copula's scores for which parameters i and j have the correlation r.
@@ -501,8 +478,8 @@ class CorrelationReader {
         for (std::size_t i = 0; i < d; ++i)
             for (std::size_t j = i + 1; j < d; ++j)
                 if (std::abs(nearest[i * d + j]) >= 5e-7 || matrix_[i * d + j] != 0)
-                    pairs.push_back(fmt::format("{} and {} {:.6f}", parameters_[i].name,
-                                                parameters_[j].name, nearest[i * d + j]));
+                    pairs.push_back(
+                        fmt::format("{} and {} {:.6f}", names_[i], names_[j], nearest[i * d + j]));
         place_.refuse("these correlations are not possible together",
                       fmt::format("the nearest possible ones, {}: {}",
                                   ranks ? "as \"spearman\"" : "for the scores of a Gaussian copula",
@@ -511,6 +488,7 @@ class CorrelationReader {
 
     const Place& place_;
     const std::vector<Parameter>& parameters_;
+    std::vector<std::string> names_;
     std::vector<double> matrix_;  ///< correlations of the scores
     std::vector<double> spearman_;
     std::vector<bool> given_;
@@ -518,6 +496,23 @@ class CorrelationReader {
     std::vector<std::shared_ptr<const Scored>> numbers_;  ///< per parameter; null until needed
     std::vector<std::shared_ptr<const Scored>> ranks_;
 };
+
+/// Numbers in the column of a file to which the parameter refers.
+Json column_of(const Place& parameter, const RunContext& run) {
+    const Place file = parameter.at("file");
+    const std::string path = file.text("expected the name of a file");
+    ReadOptions how{.all_columns = true};
+    if (const auto column = parameter.find("column"))
+        how.columns = {column->value().is_number_unsigned()
+                           ? json_text(column->value())
+                           : column->text("expected a column's name, or its number from 1")};
+    const PointSet read = file.naming([&] { return io::read_given("file", path, how, run); });
+    if (read.dimension() != 1)
+        file.refuse(fmt::format("{} has {} columns; expected 1", path, read.dimension()),
+                    "\"column\" selects one of them");
+    check_size(file, read.count());
+    return Json(std::vector<double>(read.flat().begin(), read.flat().end()));
+}
 
 }  // namespace
 
@@ -534,11 +529,10 @@ ParameterSpace parse_parameters(std::string_view json, const std::string& source
         names.add(parameters.back().name, parameters.back().levels);
     }
     Joint joint;
-    if (root.has("correlation"))
-        joint = CorrelationReader(root.at("correlation"), parameters).read();
+    if (const auto at = root.find("correlation")) joint = CorrelationReader(*at, parameters).read();
     std::vector<Expression> constraints;
-    if (root.has("constraints"))
-        for (const Place& place : root.at("constraints").list("expected a list of formulas"))
+    if (const auto at = root.find("constraints"))
+        for (const Place& place : at->list("expected a list of formulas"))
             constraints.push_back(place.naming([&] {
                 return Expression("", place.text("expected a formula, \"length*load < 300\""),
                                   names);
@@ -555,29 +549,6 @@ std::string one_line(std::string_view json, const std::string& source) {
     if (value.is_object()) value.erase("$schema");
     return json_text(value);
 }
-
-namespace {
-
-/// Numbers in the column of a file to which the parameter refers.
-Json column_of(const Place& parameter, const RunContext& run) {
-    const Place file = parameter.at("file");
-    const std::string path = file.text("expected the name of a file");
-    ReadOptions how{.all_columns = true};
-    if (parameter.has("column")) {
-        const Place column = parameter.at("column");
-        how.columns = {column.value().is_number_unsigned()
-                           ? json_text(column.value())
-                           : column.text("expected a column's name, or its number from 1")};
-    }
-    const PointSet read = file.naming([&] { return io::read_given("file", path, how, run); });
-    if (read.dimension() != 1)
-        file.refuse(fmt::format("{} has {} columns; expected 1", path, read.dimension()),
-                    "\"column\" selects one of them");
-    check_size(file, read.count());
-    return Json(std::vector<double>(read.flat().begin(), read.flat().end()));
-}
-
-}  // namespace
 
 std::string text_with_columns(const std::string& path, const RunContext& run) {
     const std::string text = read_file(path);

@@ -18,8 +18,7 @@ double place(const Marginal& law, const Share& share) {
     return std::isfinite(x) ? x : law.quantile(0x1p-54, tail);
 }
 
-/// Probabilities below and above x; if the distribution is discrete, below and above the middle of
-/// the interval of x.
+/// Probabilities below and above x or, if it is discrete, the middle of its interval.
 Share share_of(const Marginal& law, double x) {
     const Share at{law.probability(x, Tail::lower), law.probability(x, Tail::upper)};
     if (!law.discrete()) return at;
@@ -34,17 +33,10 @@ bool hold(const std::vector<Expression>& constraints, std::span<const double> ro
     });
 }
 
-/// Range of a parameter with a uniform distribution; nullopt if its distribution is not uniform or
-/// depends on other parameters.
+/// Range of a parameter that may join a polytope; nullopt for others.
 using UniformRange = std::optional<std::pair<double, double>>;
 
-UniformRange uniform_range(const Parameter& parameter) {
-    if (!parameter.law || !parameter.uniform) return std::nullopt;
-    return parameter.law->support();
-}
-
-/// Half-spaces of an affine constraint; nullopt if it is not affine, or has more variables than a
-/// polytope may have.
+/// Half-spaces of an affine constraint; nullopt if it is not affine or has too many variables.
 std::optional<std::vector<HalfSpace>> half_spaces(const Expression& constraint) {
     constexpr std::size_t most = 12;
     std::set<std::size_t> used;
@@ -54,35 +46,32 @@ std::optional<std::vector<HalfSpace>> half_spaces(const Expression& constraint) 
 }
 
 /// Makes a polytope from the linear constraints and removes them from the list; nullopt if there
-/// are no linear constraints, or if the polytope is too large. @throws Error(usage) if no
-/// parameters satisfy these constraints
+/// are none, or if the polytope is too large. @throws Error(usage) if no parameters satisfy them
 std::optional<LinearPart> take_linear_part(const std::vector<UniformRange>& ranges,
                                            std::vector<Expression>& constraints) {
-    const std::size_t d = ranges.size();
     std::vector<HalfSpace> cuts;
     std::vector<Expression> taken, left;
-    std::vector<bool> joined(d);
+    std::set<std::size_t> joined;
     for (const Expression& constraint : constraints) {
         const auto some = half_spaces(constraint);
-        std::vector<bool> used(d);
+        std::set<std::size_t> used;
         for (std::size_t i = 0; some && i < some->size(); ++i)
-            for (std::size_t k = 0; k < d; ++k) used[k] = used[k] || (*some)[i].normal[k] != 0;
-        bool belongs = some.has_value();
-        for (std::size_t k = 0; k < d; ++k) belongs = belongs && (!used[k] || ranges[k]);
+            for (std::size_t k = 0; k < ranges.size(); ++k)
+                if ((*some)[i].normal[k] != 0) used.insert(k);
+        const bool belongs =
+            some && std::ranges::all_of(used, [&](std::size_t k) { return ranges[k].has_value(); });
         (belongs ? taken : left).push_back(constraint);
         if (!belongs) continue;
         cuts.insert(cuts.end(), some->begin(), some->end());
-        for (std::size_t k = 0; k < d; ++k) joined[k] = joined[k] || used[k];
+        joined.insert(used.begin(), used.end());
     }
-    std::vector<std::size_t> coordinates;
+    if (joined.empty()) return std::nullopt;
+    std::vector<std::size_t> coordinates(joined.begin(), joined.end());
     Box box;
-    for (std::size_t k = 0; k < d; ++k) {
-        if (!joined[k]) continue;
-        coordinates.push_back(k);
+    for (const std::size_t k : coordinates) {
         box.low.push_back(ranges[k]->first);
         box.high.push_back(ranges[k]->second);
     }
-    if (coordinates.empty()) return std::nullopt;
     for (HalfSpace& cut : cuts) {
         std::vector<double> own;
         for (const std::size_t k : coordinates) own.push_back(cut.normal[k]);
@@ -139,14 +128,9 @@ void LinearPart::to_cube(std::span<const double> row, std::span<double> cube) co
     for (std::size_t i = 0; i < coordinates_.size(); ++i) cube[coordinates_[i]] = numbers[i];
 }
 
-bool LinearPart::allowed(std::span<const double> row) const {
-    return std::ranges::all_of(
-        constraints_, [&](const Expression& constraint) { return constraint.at(row) != 0; });
-}
-
 void LinearPart::move_inside(std::span<double> row) const {
     const std::vector<double>& middle = polytope_.moments().mean;
-    for (double step = 0x1p-52; step < 1 && !allowed(row); step *= 2)
+    for (double step = 0x1p-52; step < 1 && !hold(constraints_, row); step *= 2)
         for (std::size_t i = 0; i < coordinates_.size(); ++i) {
             double& x = row[coordinates_[i]];
             x += step * (middle[i] - x);
@@ -166,7 +150,8 @@ ParameterSpace::ParameterSpace(std::vector<Parameter> parameters, std::optional<
         conditional_ |= !parameter.law;
         discrete_ |= parameter.law && parameter.law->discrete();
         const bool alone = !copula_ || !copula_->joins(ranges.size());
-        ranges.push_back(alone ? uniform_range(parameter) : std::nullopt);
+        const bool uniform = parameter.law && parameter.uniform;
+        ranges.push_back(alone && uniform ? UniformRange(parameter.law->support()) : std::nullopt);
     }
     if (!reordering_) linear_ = take_linear_part(ranges, others_);
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/parameters/copula.hpp"
@@ -15,6 +16,7 @@
 #include "math/distributions/marginal.hpp"
 #include "math/polytopes/polytope.hpp"
 #include "stipple/points.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::parameters {
 
@@ -29,15 +31,12 @@ struct Parameter {
 };
 
 /// Parameters joined by linear constraints: uniform on the polytope that their ranges and the
-/// constraints bound (math/polytopes). The cube is mapped onto the polytope, and no point is
-/// dropped. A constraint qualifies if it is affine, and all its parameters are uniform on fixed
-/// ranges and in no copula:
+/// constraints bound (math/polytopes). A constraint qualifies if it is affine, and all its
+/// parameters are uniform on fixed ranges and in no copula:
 ///
 ///     {"range": [0, 2]}, {"range": [0, 2]}, "a + 2*b < 3 && a > b"
 ///
-/// Parameters that depend on the polytope's parameters still follow their conditional
-/// distributions. If other constraints drop points, the remaining points follow the distribution
-/// under all constraints.
+/// Parameters that depend on these still follow their conditional distributions.
 class LinearPart {
   public:
     /// @param coordinates indices of the polytope's coordinates among all parameters
@@ -50,16 +49,13 @@ class LinearPart {
     [[nodiscard]] const Polytope& polytope() const { return polytope_; }
     /// Volume of the polytope as a fraction of the ranges' volume.
     [[nodiscard]] double share() const { return share_; }
-
     /// Writes the polytope's coordinates into rows of all parameters. Points that rounding moved
-    /// onto or beyond a constraint are moved towards the middle until all constraints hold,
-    /// including strict ones.
+    /// onto or beyond a constraint are moved towards the middle until all constraints hold.
     void from_cube(std::span<const double> cube, std::span<double> rows,
                    std::size_t dimension) const;
     void to_cube(std::span<const double> row, std::span<double> cube) const;
 
   private:
-    [[nodiscard]] bool allowed(std::span<const double> row) const;
     void move_inside(std::span<double> row) const;
 
     std::vector<std::size_t> coordinates_;
@@ -77,7 +73,7 @@ class ParameterSpace {
                    std::optional<Reordering> reordering = std::nullopt);
 
     [[nodiscard]] const std::vector<Parameter>& parameters() const { return parameters_; }
-    /// Parameters joined by linear constraints; null if there are no linear constraints.
+    /// Null if there are no linear constraints.
     [[nodiscard]] const LinearPart* linear() const { return linear_ ? &*linear_ : nullptr; }
     /// Whether from_cube() maps onto the polytope, because rejection would keep too few points.
     [[nodiscard]] bool maps_linear() const { return linear_ && linear_->share() < 0.1; }
@@ -90,28 +86,19 @@ class ParameterSpace {
     [[nodiscard]] const std::optional<Reordering>& reordering() const { return reordering_; }
     [[nodiscard]] std::vector<std::string> names() const;
     [[nodiscard]] Levels levels() const;
-
     /// Whether parameter k is the quantile of cube coordinate k, unchanged by a copula.
     [[nodiscard]] bool takes_own(std::size_t k) const { return !copula_ || copula_->leaves(k); }
-
     /// Whether the distribution of some parameter depends on other parameters.
     [[nodiscard]] bool conditional() const { return conditional_; }
-    /// Whether some parameter is discrete.
     [[nodiscard]] bool discrete() const { return discrete_; }
-
-    /// Maps a row of the unit cube to parameters. Returns false if the parameters violate a
-    /// constraint.
+    /// Maps a row of the unit cube to parameters; false if they violate a constraint.
     [[nodiscard]] bool from_cube(std::span<const double> cube, std::span<double> row) const;
-
-    /// Maps each parameter back by its own distribution, ignoring constraints. Discrete values map
-    /// to the middle of their intervals.
+    /// Maps each parameter back by its own distribution, ignoring constraints; discrete values to
+    /// the middle of their intervals.
     void to_cube(std::span<const double> row, std::span<double> cube) const;
-
     /// Whether every parameter has a possible value and all constraints hold.
     [[nodiscard]] bool contains(std::span<const double> row) const;
-
-    /// Density without nonlinear constraints and without a reordering; for discrete parameters it
-    /// is a probability.
+    /// Density without nonlinear constraints and reordering; a probability if discrete.
     [[nodiscard]] double density(std::span<const double> row) const;
 
   private:
@@ -130,5 +117,19 @@ class ParameterSpace {
     bool discrete_ = false;
     bool conditional_ = false;
 };
+
+// Functions of parameter_file.cpp, for JSON as documented in data/parameters.schema.json.
+
+/// Parses a parameter file's text; texts that refer to other files are rejected.
+/// @param source name of the text in messages
+/// @throws Error(input) "SOURCE: $.parameters[2].range: error; what is expected"
+ParameterSpace parse_parameters(std::string_view json, const std::string& source);
+
+/// Text of a parameter file, with the numbers of columns of other files. @throws Error(input),
+/// Error(io)
+std::string text_with_columns(const std::string& path, const RunContext& run);
+
+/// The text of a parameter file on one line, for specs and provenance. @throws Error(input)
+std::string one_line(std::string_view json, const std::string& source);
 
 }  // namespace stipple::parameters

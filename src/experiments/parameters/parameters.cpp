@@ -6,22 +6,19 @@
 //
 //     x_k = F_k^-1(v_k | x_1 ... x_(k-1)),    v = copula(u)
 //
-// Linear constraints on uniformly distributed parameters restrict these to a polytope, so that
-// densities remain known. If the polytope is less than a tenth of the ranges' volume, the cube is
-// mapped onto it, and no point is dropped (LinearPart). Otherwise points are rejected, which
-// preserves neighbours and strata.
+// Linear constraints on uniform parameters restrict these to a polytope (LinearPart), so that
+// densities remain known. If it is less than a tenth of the ranges' volume, the cube is mapped onto
+// it, and no point is dropped. Otherwise points are rejected, which keeps neighbours and strata.
 //
 // Shape   one unit coordinate per parameter.
-// Strata  without a copula, xi is used directly, even if sets are reordered. With a copula, the
-//         strata of the first parameter that it joins are preserved. On a polytope, the first
-//         parameter's xi selects a simplex.
+// Strata  without a copula, xi is used directly, even if sets are reordered; with one, strata of
+//         the first joined parameter are preserved. On a polytope, the first xi selects a simplex.
 // Cost    that of the quantiles, and d^2 / 2 multiplications for a copula; about 50 ns per
 //         constraint; for a polytope, about 20 ns a coordinate.
 // Promise no point violates a constraint. The inverse of an outcome is the middle of its interval.
 //         The same bits on every machine.
-// Beware  with nonlinear constraints, or linear ones on parameters that are not uniform, the
-//         density is known only up to a factor. Requests for densities or probabilities of cells
-//         then fail.
+// Beware  with nonlinear constraints, or linear ones on parameters that are not uniform, densities
+//         are known only up to a factor, and requests for them or for probabilities of cells fail.
 
 #include <algorithm>
 #include <limits>
@@ -30,7 +27,7 @@
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "core/spec.hpp"
-#include "experiments/parameters/parameter_file.hpp"
+#include "experiments/parameters/parameter_space.hpp"
 #include "warps/marginal_mapping.hpp"
 #include "warps/named_domain.hpp"
 #include "warps/warp.hpp"
@@ -60,8 +57,7 @@ class ParameterDomain final : public NamedDomain {
         axes_ = each_->domain().get();
     }
 
-    /// Mapping of each parameter alone, if they are independent except for linear constraints;
-    /// otherwise null.
+    /// Mapping of each parameter alone; null unless only linear constraints join them.
     const Mapping* by_axes() const {
         return axes_ != nullptr && !space_.has_copula() && space_.density_known() ? each_.get()
                                                                                   : nullptr;
@@ -131,8 +127,8 @@ class ParameterDomain final : public NamedDomain {
     }
     Support support() const override {
         if (!by_axes()) return Support{.whole = false, .finite = false};
-        if (!linear()) return axes_->support();
         const Support ranges = axes_->support();
+        if (!linear()) return ranges;
         if (ranges.whole) return NamedDomain::support();
         return Support{.whole = false, .finite = ranges.finite};
     }
@@ -160,8 +156,7 @@ class ParameterDomain final : public NamedDomain {
                  "ranges");
     }
 
-    /// Bounding box of random images, for distributions that depend on other parameters; of fewer
-    /// images if there are many parameters.
+    /// Bounding box of random images; of fewer if there are many parameters.
     Box box_of_images() const {
         const std::size_t d = dimension();
         const std::size_t count = std::clamp<std::size_t>(0x100000 / d, 64, 4096);
@@ -181,8 +176,7 @@ class ParameterDomain final : public NamedDomain {
     const Domain* axes_ = nullptr;   ///< the domain of each_
 };
 
-/// Mapping onto the parameters or, if `in_cube`, onto the cube's points whose parameters satisfy
-/// all constraints.
+/// Mapping onto the parameters or, if `in_cube`, the cube's points that satisfy all constraints.
 class ParameterMapping final : public Mapping {
   public:
     ParameterMapping(std::shared_ptr<const ParameterDomain> parameters, bool in_cube)
@@ -263,10 +257,6 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     return std::make_unique<ParameterMapping>(domain_of(text, source), want.options[unit_cube]);
 }
 
-DomainPtr read(const std::string& path, const RunContext& run) {
-    return domain_of(stipple::parameters::text_with_columns(path, run), path);
-}
-
 }  // namespace
 
 Warp unit() {
@@ -282,7 +272,9 @@ Warp unit() {
             .options = Schema(file, json, unit_cube),
             .stream_version = 2,
             .mapping = make,
-            .read = read};
+            .read = [](const std::string& path, const RunContext& run) -> DomainPtr {
+                return domain_of(stipple::parameters::text_with_columns(path, run), path);
+            }};
 }
 
 }  // namespace stipple::warps::parameters

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "experiments/parameters/reordering.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -23,9 +21,7 @@ struct Ranked {
     std::uint32_t tie;  ///< rank among equal numbers
     std::uint32_t point;
 
-    bool operator<(const Ranked& other) const {
-        return number < other.number || (number == other.number && tie < other.tie);
-    }
+    auto operator<=>(const Ranked&) const = default;
 };
 
 /// Sorts the items, and returns the ranks of the points.
@@ -89,9 +85,8 @@ class ScoredSet {
 
     /// Whether several points have the same value of parameter k.
     [[nodiscard]] bool tied(std::size_t k) const { return tied_[k] != 0; }
-
-    /// Spearman's rank correlation of two parameters; 0 if one of them has the same value in all
-    /// points.
+    [[nodiscard]] bool any_tied() const { return std::ranges::count(tied_, 0) < std::ssize(tied_); }
+    /// Spearman's rank correlation of two parameters; 0 if one of them is constant.
     [[nodiscard]] double rank_correlation(std::size_t j, std::size_t k,
                                           const std::vector<Ranks>& ranks) const {
         double sum = 0, of_j = 0, of_k = 0;
@@ -145,8 +140,7 @@ class ScoredSet {
     }
 
   private:
-    /// Computes mean_ranks_ of a coordinate. Numbers that give equal parameters get the mean of
-    /// their ranks.
+    /// Computes mean_ranks_: numbers that give equal parameters get the mean of their ranks.
     void rank_equals(std::size_t k, const MarginalPtr& law) {
         const auto& numbers = numbers_[k];
         const auto parameter = [&](double u) { return law ? law->quantile(u) : u; };
@@ -164,11 +158,10 @@ class ScoredSet {
 
     std::size_t d_;
     RunContext run_;
-    std::vector<double> scores_;                ///< scores of the ranks 0, 1, ...
-    std::vector<Ranks> ranks_;                  ///< ranks of the points, by coordinate
-    std::vector<std::vector<double>> numbers_;  ///< numbers in ascending order, by coordinate
-    /// Mean ranks of numbers_, relative to the middle rank.
-    std::vector<std::vector<double>> mean_ranks_;
+    std::vector<double> scores_;                   ///< scores of the ranks 0, 1, ...
+    std::vector<Ranks> ranks_;                     ///< ranks of the points, by coordinate
+    std::vector<std::vector<double>> numbers_;     ///< numbers in ascending order, by coordinate
+    std::vector<std::vector<double>> mean_ranks_;  ///< of numbers_, relative to the middle rank
     std::vector<std::uint8_t> tied_;
 };
 
@@ -185,7 +178,6 @@ class Corrections {
           before_(spearman.size(), 0) {}
 
     [[nodiscard]] const std::vector<double>& asked() const { return asked_; }
-
     /// Adds the remaining error of the rank correlations to the requested score correlations.
     /// Returns the largest error, converted to scores.
     double correct(const std::vector<Ranks>& ranks) {
@@ -222,8 +214,7 @@ class Corrections {
     std::vector<double> before_;  ///< error before the last correction
 };
 
-/// Matrix Q of reordering.hpp. @throws Error(input) if the scores' correlations have no Cholesky
-/// factor
+/// Matrix Q of reordering.hpp. @throws Error(input) if there is none
 std::vector<double> factor_of(const ScoredSet& set, const std::vector<std::string>& names) {
     const std::size_t d = names.size();
     for (std::size_t k = 0; k < d; ++k)
@@ -243,16 +234,9 @@ std::vector<double> factor_of(const ScoredSet& set, const std::vector<std::strin
 
 }  // namespace
 
-Reordering::Reordering(std::vector<double> spearman, std::vector<double> scores,
-                       std::vector<std::string> names, std::vector<MarginalPtr> laws)
-    : spearman_(std::move(spearman)),
-      scores_(std::move(scores)),
-      names_(std::move(names)),
-      laws_(std::move(laws)) {}
-
 void Reordering::apply(std::span<double> rows, const RunContext& run) const {
     constexpr double enough = 1e-5;
-    const std::size_t d = names_.size();
+    const std::size_t d = names.size();
     const std::size_t n = rows.size() / d;
     if (d == 1) return;
     if (n <= d)
@@ -262,12 +246,10 @@ void Reordering::apply(std::span<double> rows, const RunContext& run) const {
     if (n > std::numeric_limits<std::uint32_t>::max())
         fail(ErrorKind::limit, "iman-conover: expected fewer than 2^32 points");
     run.need_memory(36.0 * static_cast<double>(rows.size()), "the reordering of the points");
-    const ScoredSet set(rows, laws_, run);
-    const std::vector<double> own = factor_of(set, names_);
-    bool tied = false;
-    for (std::size_t k = 0; k < d; ++k) tied = tied || set.tied(k);
-    const int most = tied ? 30 : 10;
-    Corrections corrections(spearman_, scores_, set);
+    const ScoredSet set(rows, laws, run);
+    const std::vector<double> own = factor_of(set, names);
+    const int most = set.any_tied() ? 30 : 10;
+    Corrections corrections(spearman, scores, set);
     std::vector<Ranks> best;
     double least = std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < most && !(least < enough); ++pass) {
@@ -283,11 +265,11 @@ void Reordering::apply(std::span<double> rows, const RunContext& run) const {
     for (std::size_t j = 0; j < d; ++j)
         for (std::size_t k = j + 1; k < d; ++k)
             if (const double r = set.rank_correlation(j, k, best);
-                std::abs(r - spearman_[j * d + k]) > told)
+                std::abs(r - spearman[j * d + k]) > told)
                 run.notify(
                     fmt::format("iman-conover: the rank correlation of {} and {} in these {} "
                                 "points is {:.4f}; {} was requested",
-                                names_[j], names_[k], n, r, spearman_[j * d + k]));
+                                names[j], names[k], n, r, spearman[j * d + k]));
 }
 
 }  // namespace stipple::parameters

@@ -8,12 +8,9 @@
 //
 // where E are the correlations of the scores and C the requested ones, 2 sin(pi r / 6) for a rank
 // correlation r. In coordinate k, point i gets the number whose rank equals the rank of T_ik. The
-// remaining error of the rank correlations is added to C, and the scores are transformed again, as
-// long as that reduces the error. For parameters with ties, whose ranks are averaged, a multiple of
-// the error is added.
-//
-// The paper uses random scores. Here the scores are those of the points themselves, so that the
-// existing order of the points is the starting point and nothing is random.
+// remaining error of the rank correlations, or a multiple of it for parameters with ties, is added
+// to C, and the scores are transformed again, as long as that reduces the error. The paper's scores
+// are random; here they are those of the points, so that nothing is random.
 //
 // Shape   n > d points of d coordinates; no coordinate is the same in all points.
 // Cost    up to 11 rounds, 31 with ties, of d sorts of n numbers and n d^2 multiplications; 36 n d
@@ -38,26 +35,17 @@ namespace stipple::parameters {
 /// Ranks 0, 1, ... of the points in one coordinate.
 using Ranks = std::vector<std::uint32_t>;
 
-class Reordering {
-  public:
-    /// @param spearman requested rank correlations, d x d in row-major order
-    /// @param scores correlations of the scores that produce these; a valid correlation matrix
-    /// @param names names of the coordinates, for messages
-    /// @param laws for each coordinate the distribution of a discrete parameter, whose ranks are
-    /// used; null for others
-    Reordering(std::vector<double> spearman, std::vector<double> scores,
-               std::vector<std::string> names, std::vector<MarginalPtr> laws);
+struct Reordering {
+    std::vector<double> spearman;    ///< requested rank correlations, d x d in row-major order
+    std::vector<double> scores;      ///< correlations of the scores that produce these; valid
+    std::vector<std::string> names;  ///< of the coordinates, for messages
+    /// Distributions of discrete parameters, whose ranks are used; null for others.
+    std::vector<MarginalPtr> laws;
 
     /// Reorders a whole set in place. Reports rank correlations that could not be reached. @throws
     /// Error(input) if there are too few points, or if some coordinates have the same order;
     /// Error(limit), Error(cancelled)
     void apply(std::span<double> rows, const RunContext& run) const;
-
-  private:
-    std::vector<double> spearman_;
-    std::vector<double> scores_;
-    std::vector<std::string> names_;
-    std::vector<MarginalPtr> laws_;
 };
 
 }  // namespace stipple::parameters

@@ -181,7 +181,8 @@ const MarginalFamily& marginal_family(std::string_view name) {
         if (family.name == name) return family;
         known.emplace_back(family.name);
     }
-    fail_with_hint(ErrorKind::usage, suggest(name, known), "there is no distribution '{}'", name);
+    fail_with_hint(ErrorKind::usage, suggest(name, known), "there is no distribution {}",
+                   shown(name));
 }
 
 MarginalPtr make_marginal(std::string_view name, const NamedNumbers& given,

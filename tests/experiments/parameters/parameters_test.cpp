@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/parameters/parameter_file.hpp"
+#include "experiments/parameters/parameter_space.hpp"
 #include "pipeline/units.hpp"
 #include "support/temporary_file.hpp"
 #include "support/warping.hpp"

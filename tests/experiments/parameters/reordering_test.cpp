@@ -27,7 +27,7 @@ std::vector<double> reordered(std::vector<double> rows, const std::vector<double
     for (const double r : spearman) scores.push_back(r == 1 ? 1 : score_correlation(r));
     std::vector<std::string> names;
     for (std::size_t k = 0; k < d; ++k) names.emplace_back(1, static_cast<char>('a' + k));
-    Reordering(spearman, scores, names, std::vector<MarginalPtr>(d)).apply(rows, run);
+    Reordering{spearman, scores, names, std::vector<MarginalPtr>(d)}.apply(rows, run);
     return rows;
 }
 
@@ -158,7 +158,7 @@ TEST(Reordering, ReachesTheRankCorrelationsOfWhatIsEqual) {
     std::string notes;
     RunContext run;
     run.warn = [&](const std::string& note) { notes += note; };
-    Reordering(asked, scores, {"a", "b", "c"}, laws).apply(rows, run);
+    Reordering{asked, scores, {"a", "b", "c"}, laws}.apply(rows, run);
     EXPECT_EQ(notes, "");
     std::vector<std::vector<double>> ranks(3, std::vector<double>(n));
     for (std::size_t k = 0; k < 3; ++k) {
