@@ -9,22 +9,18 @@
 // probabilities F_i(x_i) if the distributions of the inputs are known (unit_inputs).
 //
 // Shape   n = r (k + 1) rows: trajectories of k + 1 consecutive rows, in which each input moves
-//         once. A discrete input may stay the same in some trajectories, which then have no effect
-//         for it.
+//         once. A discrete input has no effect in trajectories in which it stays the same.
 // Units   mu, mu* and sigma have the unit of the output, since inputs are scaled to [0, 1].
 // Cost    O(n k), and the bootstrap over trajectories.
 // Source  M. D. Morris, Technometrics 33 (1991) 161-174, doi:10.1080/00401706.1991.10484804; mu*:
 //         F. Campolongo, J. Cariboni, A. Saltelli, Environ. Model. Softw. 22 (2007) 1509-1518,
 //         doi:10.1016/j.envsoft.2006.10.004; stars: F. Campolongo, A. Saltelli, J. Cariboni,
 //         Comput. Phys. Commun. 182 (2011) 978-988, doi:10.1016/j.cpc.2010.12.039.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/error.hpp"
-#include "experiments/sensitivity/bootstrap.hpp"
 #include "experiments/sensitivity/methods.hpp"
 
 namespace stipple::analyzers::sensitivity {
@@ -45,8 +41,7 @@ std::size_t origin_of(std::size_t row, std::size_t group, bool star) {
 }
 
 /// Checks that in groups of k + 1 rows each row moves in one coordinate, from the previous row or,
-/// in a star, from the first row of its group. Accepts rows that do not move, which may occur with
-/// discrete inputs.
+/// in a star, from the first row of its group. With discrete inputs, rows may also not move.
 Layout find_moves(const PointSet& design, bool star) {
     const std::size_t k = design.dimension();
     const std::size_t group = k + 1;
@@ -74,14 +69,14 @@ Layout find_moves(const PointSet& design, bool star) {
     return {.group = group, .star = star};
 }
 
-/// Terms EE - c, |EE|, (EE - c)^2 and 1 for each input, one row per trajectory, where c is the mean
-/// effect. Terms are 0 if the input did not move.
+/// Terms EE - c, |EE|, (EE - c)^2 and 1 for each input, one row per trajectory, with mean effect c;
+/// 0 if the input did not move.
 struct EffectTable {
     TermTable terms;
     std::vector<double> centre;
 };
 
-EffectTable effect_table(const Layout& layout, const PointSet& design, std::span<const double> u,
+EffectTable effect_table(const Layout& layout, const PointSet& design, const PointSet& u,
                          std::span<const double> y, std::span<const std::size_t> trajectories) {
     const std::size_t k = design.dimension();
     EffectTable table{{std::vector<double>(trajectories.size() * 4 * k), 4 * k},
@@ -93,7 +88,7 @@ EffectTable effect_table(const Layout& layout, const PointSet& design, std::span
             const std::size_t row = trajectories[t] * layout.group + s;
             const std::size_t from = origin_of(row, layout.group, layout.star);
             const std::size_t i = moved(design[from], design[row]);
-            const double step = i < k ? u[row * k + i] - u[from * k + i] : 0;
+            const double step = i < k ? u[row][i] - u[from][i] : 0;
             if (step == 0) continue;
             terms_of(t)[i] = (y[row] - y[from]) / step;
             terms_of(t)[3 * k + i] = 1;
@@ -135,12 +130,8 @@ Layout find_trajectories(const PointSet& design) {
 Effects elementary_effects(const Layout& layout, const Inputs& inputs, const Response& response,
                            const Setting& setting, const RunContext& run) {
     const std::size_t k = inputs.size();
-    const auto trajectories = complete_groups(response.y, layout.group);
+    const auto trajectories = complete_groups(response, layout.group, "trajectories");
     const auto r = static_cast<double>(trajectories.size());
-    if (trajectories.size() < 2)
-        fail(ErrorKind::input,
-             "the output {} has {} trajectories without failed runs; expected at least 2",
-             response.name, trajectories.size());
     const UnitInputs unit = unit_inputs(inputs);
     const double size = size_of(response.y);
     std::vector<double> y = response.y;

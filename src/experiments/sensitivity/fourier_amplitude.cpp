@@ -15,8 +15,6 @@
 //         is too small if harmonics above the M-th matter, and too large in many dimensions.
 // Source  A. Saltelli, S. Tarantola, K. P.-S. Chan, Technometrics 41 (1999) 39-56,
 //         doi:10.1080/00401706.1999.10485594.
-#include <fmt/format.h>
-
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "experiments/sensitivity/methods.hpp"
@@ -83,8 +81,7 @@ class Spectrum {
     std::vector<CosSin> turns_;
 };
 
-/// Ranks of coordinate j along curve i of n rows, minus their mean. Ranks do not depend on the
-/// distribution of the coordinate.
+/// Ranks of coordinate j along curve i of n rows, minus their mean.
 std::vector<double> along(const PointSet& design, std::size_t i, std::size_t j, std::size_t n) {
     std::vector<double> x(n);
     for (std::size_t s = 0; s < n; ++s) x[s] = design[i * n + s][j];

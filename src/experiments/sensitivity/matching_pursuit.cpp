@@ -1,20 +1,26 @@
 // SPDX-License-Identifier: MIT
-#include "experiments/sensitivity/matching_pursuit.hpp"
-
+//
+// Orthogonal matching pursuit: adds terms to a least squares fit one by one, each time the term
+// that correlates most with the residual. It keeps the number of terms t that minimizes
+//
+//     (mean square of e_i / (1 - h_i)) n / (n - t - 1) (1 + trace of inverse Gram matrix) P^(2t/n)
+//
+// for terms chosen from P candidates, where e_i / (1 - h_i) are the leave-one-out errors. The last
+// factor compensates for the choice, which reduces the error even for pure noise.
+//
+// Source  Y. C. Pati, R. Rezaiifar, P. S. Krishnaprasad, Asilomar Conf. 27 (1993) 40-44,
+//         doi:10.1109/ACSSC.1993.342465; O. Chapelle, V. Vapnik, Y. Bengio, Mach. Learn. 48 (2002)
+//         9-23, doi:10.1023/A:1013943418833 (trace); D. P. Foster, E. I. George, Ann. Statist. 22
+//         (1994) 1947-1975, doi:10.1214/aos/1176325766 (2 log P for a term).
 #include <algorithm>
 #include <cmath>
 
+#include "experiments/sensitivity/methods.hpp"
 #include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"
 
 namespace stipple::analyzers::sensitivity {
 namespace {
-
-double dot(std::span<const double> a, std::span<const double> b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-    return sum;
-}
 
 void subtract(std::vector<double>& from, double factor, std::span<const double> b) {
     for (std::size_t i = 0; i < from.size(); ++i) from[i] -= factor * b[i];
@@ -129,7 +135,7 @@ class Pursuit {
         along_.push_back(along);
     }
 
-    /// Selection criterion of the current fit (see the header).
+    /// Selection criterion of the current fit (see above).
     [[nodiscard]] double error() const {
         const auto n = static_cast<double>(n_);
         const auto terms = static_cast<double>(chosen_.size());
@@ -162,8 +168,8 @@ class Pursuit {
 
 }  // namespace
 
-SparseFit sparse_fit(const Candidates& candidates, std::span<const double> z,
-                     const RunContext& run) {
+SparseFit matching_pursuit(const Candidates& candidates, std::span<const double> z,
+                           const RunContext& run) {
     return Pursuit(candidates, z, run).best();
 }
 

@@ -20,10 +20,7 @@
 #include <iterator>
 #include <map>
 
-#include <fmt/format.h>
-
 #include "core/error.hpp"
-#include "experiments/sensitivity/bootstrap.hpp"
 #include "experiments/sensitivity/methods.hpp"
 
 namespace stipple::analyzers::sensitivity {
@@ -37,8 +34,8 @@ bool is_mixed(std::span<const double> row, std::span<const double> whole,
     return true;
 }
 
-/// Index of the first row that does not fit groups of this size; the number of rows if all rows
-/// fit; 0 if the first and last rows of all groups are equal.
+/// Index of the first row that does not fit groups of this size; the number of rows if all fit; 0
+/// if the first and last rows of all groups are equal.
 std::size_t first_unfit(const PointSet& design, std::size_t group) {
     const std::size_t k = design.dimension();
     bool moves = false;
@@ -77,7 +74,7 @@ bool is_factorial(const PointSet& design, std::size_t group) {
     return expected >= most;
 }
 
-/// Appends the terms of a base row with the outputs `f`: terms of V, then terms of first, total and
+/// Appends the terms of a base row with the outputs f: those of V, then those of first, total and
 /// second order indices.
 void append_terms(std::span<const double> f, std::size_t k, std::vector<double>& terms) {
     const double a = f.front();
@@ -93,9 +90,8 @@ void append_terms(std::span<const double> f, std::size_t k, std::vector<double>&
         for (std::size_t j = i + 1; j < k; ++j) terms.push_back(ba[i] * ab[j] - a * b);
 }
 
-/// Computes mean, variance and indices from the means of the terms of append_terms(), in the same
-/// order. All are NaN if the outputs in the first and last rows of groups differ only by rounding
-/// errors.
+/// Mean, variance and indices, from the means of the terms of append_terms(); NaN if the outputs in
+/// the first and last rows of groups differ only by rounding errors.
 void indices_of(std::span<const double> means, std::size_t k, std::span<double> values) {
     constexpr double rounding = 1e-12;  // relative to the largest output, scaled to 1
     const double variance = means[1] - means[0] * means[0];
@@ -111,8 +107,8 @@ void indices_of(std::span<const double> means, std::size_t k, std::span<double> 
         for (std::size_t j = i + 1; j < k; ++j) values[pair++] -= values[2 + i] + values[2 + j];
 }
 
-/// Drops the indices of inputs whose mixed rows vary far more than A and B. Since all these rows
-/// should be samples of the same distribution, V cannot be the variance of the output.
+/// Drops the indices of inputs whose mixed rows vary far more than A and B, although all should be
+/// samples of the same distribution.
 void drop_unlike(Effects& effects, std::span<const double> f, std::size_t k, double variance) {
     constexpr double most = 10;
     const std::size_t group = f.size() / effects.samples;
@@ -167,11 +163,7 @@ Effects pick_freeze(const Layout& layout, const Inputs& inputs, const Response& 
                     const Setting& setting, const RunContext& run) {
     const std::size_t k = inputs.size();
     const std::size_t group = layout.group;
-    const auto complete = complete_groups(response.y, group);
-    if (complete.size() < 2)
-        fail(ErrorKind::input,
-             "the output {} has {} base rows without failed runs; expected at least 2",
-             response.name, complete.size());
+    const auto complete = complete_groups(response, group, "base rows");
     const Centred f = centred(joined(response.y, group, complete));
     if (is_constant(f.z))
         fail(ErrorKind::input, "the output {} is constant in the {} base rows without failed runs",

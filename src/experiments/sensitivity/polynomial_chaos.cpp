@@ -1,32 +1,28 @@
 // SPDX-License-Identifier: MIT
 //
-// Sobol' indices of a sparse polynomial chaos expansion, fitted to any sample and validated with
-// runs to which it was not fitted. The output is approximated by p(x) = c_0 + sum_a c_a P_a(x),
-// with products P_a of polynomials of single inputs. The polynomials are orthonormal for the
-// distribution of their input: a uniform one, or that of its values in the sample. In the latter
-// case the mean over the runs of P_a(x_i) P_b(x_i) is 1 for a = b, otherwise 0. An input with m
-// values then has polynomials of degree 0 to m - 1, which represent functions of discrete inputs
-// exactly. So p has orthogonal parts. Each index belongs to the part p_u of a group u of terms:
-// those with input i alone (first), all with input i (total), or those with inputs i and j only
-// (second).
+// Sobol' indices of a sparse polynomial chaos expansion of any sample. The output is approximated
+// by p(x) = c_0 + sum_a c_a P_a(x), with products P_a of polynomials of single inputs. These are
+// orthonormal for the distribution of their input: a uniform one, or that of its values in the
+// sample. In the latter case an input with m values has polynomials of degree 0 to m - 1, which
+// represent functions of discrete inputs exactly. Each index belongs to the part p_u of a group u
+// of terms: those with input i alone (first), all with input i (total), or those with inputs i and
+// j only (second).
 //
-// Five times, a polynomial is fitted to four fifths of the runs: degree, terms and coefficients are
-// chosen from these alone (matching_pursuit.hpp). Let r = f - p be its errors in the other fifth.
-// With means over all runs, each predicted by the polynomial that was not fitted to it,
+// Five times, degree, terms and coefficients are chosen from four fifths of the runs alone
+// (matching_pursuit.cpp). Let r = f - p be the errors in the other fifth. With means over all runs,
+// each predicted by the polynomial that was not fitted to it,
 //
 //     V   = mean of sum_a c_a^2 + 2 (p - c_0) r + r^2,    Q2 = 1 - mean r^2 / Var f,
 //     S_u = (mean of |p_u|^2 + 2 p_u r) / V,  |p_u|^2 the sum of the c_a^2 of u.
 //
 // Up to random errors, S_u is (||f_u||^2 - ||f_u - p_u||^2) / V, the part of the index that p_u
 // explains. Terms fitted to noise do not increase it, because they explain nothing of other runs.
-// The unexplained part 1 - Q2 may or may not belong to u. So the interval is from S_u minus its
-// error to S_u + 1 - Q2 plus its error. The errors are Student's quantile times the standard error
-// of the ratio of the two means.
+// The interval is from S_u minus its error to S_u + 1 - Q2 plus its error, since the unexplained
+// part may belong to u. Errors are Student's quantile times the standard error of the ratio.
 //
 // If the inputs' distributions are unknown, the runs are also a sample of these distributions. The
 // standard error then uses p_u (2 p_v - p_u) instead of |p_u|^2, where v are all terms that contain
-// the inputs of u, and (f - mean f)^2 instead of the terms of V. These expressions include the
-// effect of the frequencies of an input's values.
+// the inputs of u, and (f - mean f)^2 instead of the terms of V.
 //
 // Shape   eight runs or more, twenty for intervals; independent inputs. Inputs that are known to be
 //         uniform, or in [0, 1] with the mean and variance of uniform ones, have Legendre
@@ -50,24 +46,21 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
-#include "experiments/sensitivity/matching_pursuit.hpp"
 #include "experiments/sensitivity/methods.hpp"
 
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-/// Polynomials of one input, evaluated in all runs: run after run, by ascending degree.
+/// Values of one input's polynomials: run after run, by ascending degree.
 struct Polynomials {
     std::size_t count = 1;  ///< number of polynomials: largest degree + 1
     std::vector<double> values = {};
 };
 
-/// A product of polynomials of different inputs: pairs of an input, ascending, and its degree,
-/// which is at least 1.
+/// A product of polynomials: pairs of an input, ascending, and its degree, at least 1.
 using BasisTerm = std::vector<std::pair<std::size_t, std::size_t>>;
 
-/// Appends all products of `begun` with polynomials of inputs from `from` on, whose degrees sum to
-/// `left`.
+/// Appends the products of `begun` with polynomials of inputs from `from` on, of degree `left`.
 void append_terms_of_degree(BasisTerm& begun, std::size_t from, std::span<const Polynomials> inputs,
                             std::size_t left, std::vector<BasisTerm>& terms) {
     if (left == 0) return terms.push_back(begun);
@@ -79,8 +72,7 @@ void append_terms_of_degree(BasisTerm& begun, std::size_t from, std::span<const 
         }
 }
 
-/// Distinct values of an input, scaled to [-1, 1], in ascending order; each with its fraction of
-/// the runs.
+/// Distinct values of an input, ascending in [-1, 1], each with its fraction of the runs.
 struct Distribution {
     std::vector<double> x;
     std::vector<double> weight;
@@ -92,12 +84,11 @@ struct Distribution {
     }
 };
 
-Distribution distribution_of(std::span<const double> x, const std::vector<double>& values) {
+/// @param runs for each run the index of its value
+Distribution distribution_of(const std::vector<double>& values, std::span<const std::size_t> runs) {
     Distribution out{.x = {}, .weight = std::vector<double>(values.size())};
-    for (const double value : x)
-        ++out.weight[static_cast<std::size_t>(std::ranges::lower_bound(values, value) -
-                                              values.begin())];
-    for (double& weight : out.weight) weight /= static_cast<double>(x.size());
+    for (const std::size_t i : runs) ++out.weight[i];
+    for (double& weight : out.weight) weight /= static_cast<double>(runs.size());
     // Uses halves, because the difference of two doubles may overflow.
     const double middle = values.front() / 2 + values.back() / 2;
     const double extent = values.back() / 2 - values.front() / 2;
@@ -106,8 +97,7 @@ Distribution distribution_of(std::span<const double> x, const std::vector<double
     return out;
 }
 
-/// Appends x times the last polynomial, made orthonormal to all others; false if only rounding
-/// errors remain.
+/// Appends x times the last polynomial, orthonormalized; false if only rounding errors remain.
 bool append_next(const Distribution& law, std::vector<std::vector<double>>& polynomials) {
     std::vector<double> next = polynomials.back();
     for (std::size_t i = 0; i < next.size(); ++i) next[i] *= law.x[i];
@@ -143,27 +133,28 @@ Polynomials legendre_polynomials(std::span<const double> u, std::size_t max_degr
     return out;
 }
 
-/// Orthonormal polynomials for the distribution of the values x; their degrees are at most
-/// max_degree and below the number of distinct values.
+/// Orthonormal polynomials for the distribution of the values x, up to max_degree if there are
+/// enough distinct values.
 Polynomials sample_polynomials(std::span<const double> x, std::size_t max_degree) {
     std::vector<double> values(x.begin(), x.end());
     std::ranges::sort(values);
     values.erase(std::unique(values.begin(), values.end()), values.end());
-    const Distribution law = distribution_of(x, values);
+    std::vector<std::size_t> runs;  // for each run the index of its value
+    for (const double value : x)
+        runs.push_back(
+            static_cast<std::size_t>(std::ranges::lower_bound(values, value) - values.begin()));
+    const Distribution law = distribution_of(values, runs);
     std::vector<std::vector<double>> polynomials = {std::vector<double>(values.size(), 1.0)};
     while (polynomials.size() <= max_degree && polynomials.size() < values.size())
         if (!append_next(law, polynomials)) break;
     Polynomials out{.count = polynomials.size()};
     out.values.reserve(x.size() * out.count);
-    for (const double value : x) {
-        const auto at =
-            static_cast<std::size_t>(std::ranges::lower_bound(values, value) - values.begin());
-        for (const auto& polynomial : polynomials) out.values.push_back(polynomial[at]);
-    }
+    for (const std::size_t i : runs)
+        for (const auto& polynomial : polynomials) out.values.push_back(polynomial[i]);
     return out;
 }
 
-/// Number of terms of k inputs with total degree 1 to p, if every input has enough values.
+/// Number of terms of k inputs with total degrees from 1 to p, if every input has enough values.
 double term_count(std::size_t k, std::size_t p) {
     double count = 1;
     for (std::size_t i = 1; i <= p; ++i)
@@ -220,17 +211,15 @@ struct Fold {
     std::vector<std::size_t> unseen = {};
     std::string scale = {};
     std::size_t degree = 0;  ///< largest degree of candidates; 0 before the first fit
-    double error = 0;
-    double constant = 0;
+    SparseFit fit = {};
     std::vector<BasisTerm> terms = {};
-    std::vector<double> coefficients = {};
     /// Products of coefficients and terms: one row per unseen run.
     std::vector<double> products = {};
 
     [[nodiscard]] bool is_settled(std::size_t next_degree) const {
         constexpr double enough = 1e-6;
         constexpr std::size_t patience = 3;  // since even and odd degrees may alternate
-        return degree > 0 && (error < enough || next_degree > degree + patience);
+        return degree > 0 && (fit.error < enough || next_degree > degree + patience);
     }
 };
 
@@ -250,13 +239,10 @@ std::vector<Fold> folds_of(std::size_t n) {
 void improve(Fold& fold, const Table& table, const Basis& basis, std::span<const double> z,
              const RunContext& run) {
     const std::size_t columns = table.terms.size();
-    const SparseFit fit = sparse_fit({table.values, columns, fold.seen}, z, run);
-    if (fold.degree > 0 && !(fit.error < fold.error)) return;
+    SparseFit fit = matching_pursuit({table.values, columns, fold.seen}, z, run);
+    if (fold.degree > 0 && !(fit.error < fold.fit.error)) return;
     fold.scale = basis.scale;
     fold.degree = table.degree;
-    fold.error = fit.error;
-    fold.constant = fit.constant;
-    fold.coefficients = fit.coefficients;
     fold.terms.clear();
     for (const std::size_t t : fit.chosen) fold.terms.push_back(table.terms[t]);
     fold.products.clear();
@@ -264,9 +250,10 @@ void improve(Fold& fold, const Table& table, const Basis& basis, std::span<const
         for (std::size_t t = 0; t < fit.chosen.size(); ++t)
             fold.products.push_back(fit.coefficients[t] *
                                     table.values[i * columns + fit.chosen[t]]);
+    fold.fit = std::move(fit);
 }
 
-/// Largest degree with an acceptable number of candidates, at least 1.
+/// Largest degree with an acceptable number of candidates; at least 1.
 std::size_t bearable_degree(std::size_t k, std::size_t n) {
     const double most = std::min(600.0, 1e7 / static_cast<double>(n));
     std::size_t degree = 1;
@@ -274,8 +261,7 @@ std::size_t bearable_degree(std::size_t k, std::size_t n) {
     return degree;
 }
 
-/// Folds with their best polynomials over all acceptable degrees, or of the given degree. Stops if
-/// higher degrees do not help.
+/// Folds with their best polynomials over all acceptable degrees, or of the given degree.
 std::vector<Fold> fitted_folds(const Basis& basis, std::span<const double> z,
                                const std::optional<std::size_t>& degree, const RunContext& run) {
     std::vector<Fold> folds = folds_of(z.size());
@@ -298,19 +284,17 @@ std::vector<Fold> fitted_folds(const Basis& basis, std::span<const double> z,
     return folds;
 }
 
-/// Terms that contribute to an index: those that contain one given input, or two.
+/// Group of terms: those that contain the given inputs.
 struct Part {
-    std::size_t first;
-    std::size_t second;  ///< equal to `first` for a single input
-    bool alone;          ///< excludes terms that contain other inputs
+    std::vector<std::size_t> inputs = {};
+    bool alone = false;  ///< excludes terms that contain other inputs
 
     /// Whether a term contains the inputs, and whether it belongs to the group.
     [[nodiscard]] std::pair<bool, bool> holds(const BasisTerm& term) const {
-        const auto has = [&](std::size_t i) {
-            return std::ranges::any_of(term, [i](const auto& factor) { return factor.first == i; });
-        };
-        const bool with = has(first) && has(second);
-        return {with, with && (!alone || term.size() == (first == second ? 1U : 2U))};
+        const bool with = std::ranges::all_of(inputs, [&](std::size_t i) {
+            return std::ranges::find(term, i, &BasisTerm::value_type::first) != term.end();
+        });
+        return {with, with && (!alone || term.size() == inputs.size())};
     }
 };
 
@@ -321,14 +305,13 @@ struct Sums {
     std::vector<double> around;  ///< sums of all terms that contain the group's inputs
 };
 
-template <class Holds>
-Sums sums_of(std::span<const Fold> folds, std::size_t n, const Holds& holds) {
+Sums sums_of(std::span<const Fold> folds, std::size_t n, const Part& part) {
     Sums sums{std::vector(n, 0.0), std::vector(n, 0.0), std::vector(n, 0.0)};
     for (const Fold& fold : folds)
         for (std::size_t t = 0; t < fold.terms.size(); ++t) {
-            const auto [with, inside] = holds(fold.terms[t]);
+            const auto [with, inside] = part.holds(fold.terms[t]);
             if (!with) continue;
-            const double square = fold.coefficients[t] * fold.coefficients[t];
+            const double square = fold.fit.coefficients[t] * fold.fit.coefficients[t];
             for (std::size_t r = 0; r < fold.unseen.size(); ++r) {
                 const std::size_t i = fold.unseen[r];
                 const double value = fold.products[r * fold.terms.size() + t];
@@ -342,9 +325,7 @@ Sums sums_of(std::span<const Fold> folds, std::size_t n, const Holds& holds) {
 }
 
 double mean_of(std::span<const double> values) {
-    double sum = 0;
-    for (const double value : values) sum += value;
-    return sum / static_cast<double>(values.size());
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 /// Errors of the polynomials in runs to which they were not fitted, and the variance of the output.
@@ -358,23 +339,20 @@ struct Judgement {
 };
 
 Judgement judged(std::span<const Fold> folds, std::span<const double> z, bool known) {
-    const Sums all = sums_of(folds, z.size(), [](const auto&) { return std::pair(true, true); });
+    const Sums all = sums_of(folds, z.size(), {});
     Judgement out{.known = known, .error = {z.begin(), z.end()}};
-    double squares = 0;
-    double whole = 0;
     for (const Fold& fold : folds)
-        for (const std::size_t i : fold.unseen) out.error[i] -= fold.constant + all.own[i];
+        for (const std::size_t i : fold.unseen) out.error[i] -= fold.fit.constant + all.own[i];
     for (std::size_t i = 0; i < z.size(); ++i) {
         const double r = out.error[i];
-        squares += r * r;
-        whole += z[i] * z[i];
         const double term = all.norm[i] + 2 * all.own[i] * r + r * r;
         out.variance += term;
         out.moving.push_back(known ? term : z[i] * z[i]);
     }
+    const double whole = dot(z, z);
     // A few wild predictions must not make the variance vanish.
     out.variance = std::max(out.variance, whole / 2) / static_cast<double>(z.size());
-    out.q2 = 1 - squares / whole;
+    out.q2 = 1 - dot(out.error, out.error) / whole;
     return out;
 }
 
@@ -383,10 +361,9 @@ double error_of_ratio(std::span<const double> values, double ratio, const Judgem
     std::vector<double> rest(values.begin(), values.end());
     for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= ratio * judgement.moving[i];
     const double mean = mean_of(rest);
-    double squares = 0;
-    for (const double value : rest) squares += (value - mean) * (value - mean);
+    for (double& value : rest) value -= mean;
     const auto n = static_cast<double>(rest.size());
-    return std::sqrt(squares / (n - 1) / n) / judgement.variance;
+    return std::sqrt(dot(rest, rest) / (n - 1) / n) / judgement.variance;
 }
 
 Index index_of(const Sums& sums, const Judgement& judgement, double level) {
@@ -412,8 +389,7 @@ Index index_of(const Sums& sums, const Judgement& judgement, double level) {
     return index;
 }
 
-/// Whether the values differ from their ranks, scaled to the range of the values, by at most a
-/// tenth of this range.
+/// Whether values differ from their scaled ranks by at most a tenth of their range.
 bool is_even(std::span<const double> x, std::span<const double> ranks) {
     const auto [low, high] = std::ranges::minmax(x);
     constexpr double most = 0.1;
@@ -436,35 +412,24 @@ bool looks_uniform(std::span<const double> u, double errors) {
     return std::abs(sums[1]) <= most && std::abs(sums[2]) <= most;
 }
 
-/// Column j of a table with rows of `width` numbers, in the given rows.
-std::vector<double> column_of(std::span<const double> table, std::size_t width, std::size_t j,
-                              std::span<const std::size_t> rows) {
-    std::vector<double> column;
-    column.reserve(rows.size());
-    for (const std::size_t i : rows) column.push_back(table[i * width + j]);
-    return column;
-}
-
-/// Legendre polynomials for inputs that are known to be uniform or look uniform; otherwise
-/// polynomials of the values. Adds a second basis, of polynomials of the ranks, if values and ranks
-/// differ enough.
+/// Legendre polynomials for inputs that are known to be uniform or look uniform, otherwise
+/// polynomials of the values; and a second basis, of the ranks, if values and ranks differ enough.
 std::vector<Basis> bases_of(const Inputs& inputs, std::span<const std::size_t> runs,
                             std::size_t degree) {
-    const std::size_t k = inputs.size();
     const UnitInputs unit = unit_inputs(inputs);
     const bool told = inputs.domain != nullptr;
     const bool cube = told || std::string_view(unit.scale) == "cube";
     Basis values{.scale = unit.scale, .known = told};
     Basis ranks{.scale = "ranks"};
     bool even = true;
-    for (std::size_t j = 0; j < k; ++j) {
-        const auto u = column_of(unit.u, k, j, runs);
+    for (std::size_t j = 0; j < inputs.size(); ++j) {
+        const auto u = picked(column_of(unit.u, j), runs);
         if (cube && looks_uniform(u, told ? 5 : 2.6)) {
             values.inputs.push_back(legendre_polynomials(u, degree));
             ranks.inputs.push_back(values.inputs.back());
             continue;
         }
-        const auto x = column_of(inputs.values.flat(), k, j, runs);
+        const auto x = picked(column_of(inputs.values, j), runs);
         const auto rank = ranks_of(x);
         values.scale = "values";
         values.known = false;
@@ -488,18 +453,12 @@ std::set<std::pair<std::size_t, std::size_t>> pairs_in(std::span<const Fold> fol
 
 void add_details(Report& details, std::span<const Fold> folds, double q2,
                  const std::string& scale) {
-    std::size_t degree = 0;
-    std::size_t terms = 0;
-    std::size_t by_ranks = 0;
-    for (const Fold& fold : folds) {
-        degree = std::max(degree, fold.degree);
-        terms = std::max(terms, fold.terms.size());
-        by_ranks += fold.scale == "ranks";
-    }
+    const auto size = [](const Fold& fold) { return fold.terms.size(); };
+    const auto by_ranks = std::ranges::count(folds, "ranks", &Fold::scale);
     details.add("q2", q2);
-    details.add("degree", degree);
-    details.add("terms", terms);
-    details.add("scale", 2 * by_ranks > folds.size() ? "ranks" : scale);
+    details.add("degree", std::ranges::max_element(folds, {}, &Fold::degree)->degree);
+    details.add("terms", size(*std::ranges::max_element(folds, {}, size)));
+    details.add("scale", 2 * by_ranks > std::ssize(folds) ? "ranks" : scale);
 }
 
 }  // namespace
@@ -524,7 +483,7 @@ std::optional<Effects> polynomial_chaos(const Inputs& inputs, const Response& re
             run.stage(share * static_cast<double>(b), share * static_cast<double>(b + 1)));
         if (b == 0) folds = next;
         for (std::size_t i = 0; i < next.size(); ++i)
-            if (next[i].error < folds[i].error) folds[i] = std::move(next[i]);
+            if (next[i].fit.error < folds[i].fit.error) folds[i] = std::move(next[i]);
     }
     if (std::ranges::all_of(folds, [](const Fold& fold) { return fold.terms.empty(); }))
         return std::nullopt;
@@ -532,8 +491,7 @@ std::optional<Effects> polynomial_chaos(const Inputs& inputs, const Response& re
     const Judgement judgement = judged(folds, f.z, bases[0].known);
     const auto index = [&](const Part& part) {
         run.check_stop();
-        const auto holds = [&](const BasisTerm& term) { return part.holds(term); };
-        return index_of(sums_of(folds, f.z.size(), holds), judgement, setting.level);
+        return index_of(sums_of(folds, f.z.size(), part), judgement, setting.level);
     };
     Effects effects{
         .used = runs.size(),
@@ -543,10 +501,11 @@ std::optional<Effects> polynomial_chaos(const Inputs& inputs, const Response& re
         .kinds = {{"first", {}}, {"total", {}}},
         .no_intervals = too_few_for_intervals(runs.size(), least_for_intervals, "runs")};
     for (std::size_t i = 0; i < inputs.size(); ++i) {
-        effects.kinds[0].of.push_back(index({i, i, true}));
-        effects.kinds[1].of.push_back(index({i, i, false}));
+        effects.kinds[0].of.push_back(index({{i}, true}));
+        effects.kinds[1].of.push_back(index({{i}, false}));
     }
-    for (const auto& [i, j] : pairs_in(folds)) effects.pairs.push_back({i, j, index({i, j, true})});
+    for (const auto& [i, j] : pairs_in(folds))
+        effects.pairs.push_back({i, j, index({{i, j}, true})});
     add_details(effects.details, folds, judgement.q2, bases[0].scale);
     return effects;
 }

@@ -12,10 +12,9 @@
 // for W windows, if this estimate is smaller. A window has sqrt(n) runs or more and ends where x_i
 // changes, so that runs of equal x_i stay together, and their order does not matter.
 //
-// With windows of two runs this would nearly be the statistic of Chatterjee, and of Gamboa et al.,
-// which uses each run and its next neighbor. Its errors are a fifth and more on low-discrepancy
-// points, whose neighbors in one coordinate are related in the others. The points of a larger
-// window are well spread in the other coordinates.
+// Windows of two runs would nearly give the statistic of Chatterjee, and of Gamboa et al., whose
+// errors are a fifth and more on low-discrepancy points: neighbors in one coordinate are related in
+// the others.
 //
 // The interval extends by Student's quantile times the standard error se to both sides, with max(W,
 // sqrt(n)) - 1 degrees of freedom. With m_j the mean of the other runs in the window of run j,
@@ -55,13 +54,12 @@
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-/// A run in the order of one input: the input's value x and the centred output z.
+/// A run: value of the input x and centred output z.
 struct Ordered {
     double x;
     double z;
 };
 
-/// Window of runs that are neighbors in the order of an input x.
 struct Window {
     double size = 0;
     double mean = 0;
@@ -69,8 +67,8 @@ struct Window {
     bool constant;        ///< whether x is constant in the window
 };
 
-/// Divides runs into windows of about equal sizes, with at least `least` runs and at least two.
-/// Runs with equal inputs are in the same window.
+/// Divides runs into windows of about equal sizes, at least two and `least`; runs with equal
+/// inputs are in the same window.
 std::vector<Window> windows_of(std::span<const Ordered> runs, std::size_t least) {
     std::vector<Window> windows;
     for (std::size_t first = 0, last = 0; first < runs.size(); first = last) {
@@ -96,8 +94,7 @@ std::vector<Window> windows_of(std::span<const Ordered> runs, std::size_t least)
     return windows;
 }
 
-/// Part of sum n_g z_g^2 due to chance: for independent runs or, if it is smaller, as estimated
-/// from the second differences of the means.
+/// The smaller one of the two estimates of chance.
 double chance_of(std::span<const Window> windows) {
     double independent = 0;
     for (const Window& window : windows) independent += window.variance;
@@ -111,8 +108,7 @@ double chance_of(std::span<const Window> windows) {
     return std::min(independent, seen * all / (all - 2));
 }
 
-/// Loss of sum n_g z_g^2 if windows had twice the size, summed over both ways to join neighbors.
-/// Skips pairs of windows in which the input is constant, since such pairs hide nothing.
+/// Loss of sum n_g z_g^2 if windows had twice the size.
 double hidden_in(std::span<const Window> windows) {
     double sum = 0;
     for (std::size_t g = 1; g < windows.size(); ++g) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "experiments/sensitivity/runs.hpp"
-
-#include <fmt/format.h>
+//
+// Reads the runs of a model: outputs with a separate file of inputs, or both in one table.
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "core/domain.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "experiments/sensitivity/methods.hpp"
 #include "io/columns.hpp"
 #include "io/files.hpp"
 #include "stipple/warp.hpp"
@@ -20,7 +20,6 @@ namespace {
 using Names = std::vector<std::string>;
 using Numbers = std::vector<std::size_t>;
 
-/// A table with the names of its columns.
 struct Columns {
     const PointSet& table;
     Names names;
@@ -58,12 +57,6 @@ Numbers picked_columns(const std::string& wanted, const Columns& from, const cha
     return columns;
 }
 
-std::vector<double> column_of(const PointSet& table, std::size_t c) {
-    std::vector<double> values(table.count());
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = table[i][c];
-    return values;
-}
-
 PointSet columns_of(const PointSet& table, const Numbers& columns) {
     PointSet part(table.count(), columns.size());
     for (std::size_t i = 0; i < table.count(); ++i)
@@ -71,16 +64,13 @@ PointSet columns_of(const PointSet& table, const Numbers& columns) {
     return part;
 }
 
-// ---------------------------------------------------------------- domain of the inputs
-
 /// Domain of the inputs, with the names of its coordinates; null if unknown.
 struct Known {
     DomainPtr domain;
     Names names;
 };
 
-/// Names and domain of the inputs from the provenance. There are no names for a domain given by the
-/// user, of which only the order of the inputs is known.
+/// Domain of the inputs from the provenance; without names if the user gave the domain.
 Known known_inputs(const Provenance& told, std::size_t inputs, const RunContext& run) {
     const bool made = !told.generator.empty();
     if (told.domain.empty() || (told.domain == "unit-cube" && !made)) return {};
@@ -91,7 +81,7 @@ Known known_inputs(const Provenance& told, std::size_t inputs, const RunContext&
     return known;
 }
 
-/// Indices of the columns with these names, in the same order; empty if some are missing.
+/// Columns with these names, in the same order; empty if some are missing.
 Numbers named_columns(const Names& wanted, const Names& names) {
     Numbers columns;
     for (const auto& name : wanted) {
@@ -102,7 +92,7 @@ Numbers named_columns(const Names& wanted, const Names& names) {
     return columns;
 }
 
-/// Indices of the columns that the known names select. @throws Error(input) if columns are missing
+/// Columns with the known names. @throws Error(input) if some are missing
 Numbers known_columns(const Known& known, const Columns& from) {
     Numbers columns = named_columns(known.names, from.names);
     if (!columns.empty()) return columns;
@@ -114,8 +104,8 @@ Numbers known_columns(const Known& known, const Columns& from) {
                    from.place, join(missing, ", "), join(from.names, ", "));
 }
 
-/// Indices of the columns with the domain's coordinates; empty if some of these are missing.
-/// @throws Error(usage) if the domain has no names and another dimension
+/// Columns with the domain's coordinates; empty if some are missing. @throws Error(usage) if the
+/// domain has no names and another dimension
 Numbers coordinates_of(const Known& known, const Columns& from, const Numbers& columns,
                        const RunContext& run) {
     const std::size_t k = known.domain->dimension();
@@ -130,8 +120,8 @@ Numbers coordinates_of(const Known& known, const Columns& from, const Numbers& c
     return {};
 }
 
-/// Whether the density is a product over the coordinates. If so, two points that exchange a
-/// coordinate keep the product of their densities, which is tested.
+/// Whether the density is a product over coordinates: two points that exchange one then keep the
+/// product of their densities.
 bool independent(const Domain& domain, const PointSet& points) {
     constexpr std::size_t most = 100;
     constexpr double rounding = 1e-9;
@@ -194,21 +184,22 @@ Inputs inputs_of(const Columns& from, const Numbers& columns, const Known& known
     return inputs;
 }
 
-// ---------------------------------------------------------------- outputs
-
-/// Output in column c. @throws Error(input) if the column contains words
-Response response_of(const Columns& from, std::size_t c) {
-    for (const auto& [column, words] : from.table.provenance.levels)
-        if (column == from.names[c])
-            fail_with_hint(ErrorKind::input, "--response selects outputs",
-                           "the output {} contains words, such as {}; expected numbers", column,
-                           words.empty() ? "" : words.front());
-    return {from.names[c], column_of(from.table, c)};
+/// Outputs in the given columns. @throws Error(input) if one of them contains words
+std::vector<Response> responses_of(const Columns& from, const Numbers& columns) {
+    std::vector<Response> responses;
+    for (const std::size_t c : columns) {
+        for (const auto& [column, words] : from.table.provenance.levels)
+            if (column == from.names[c])
+                fail_with_hint(ErrorKind::input, "--response selects outputs",
+                               "the output {} contains words, such as {}; expected numbers", column,
+                               words.empty() ? "" : words.front());
+        responses.push_back({from.names[c], column_of(from.table, c)});
+    }
+    return responses;
 }
 
-/// First point at which column c of a table differs from column j of the design by more than
-/// `rounding` times the larger one of column j's range and the number's magnitude. Returns the
-/// number of points if there is no such point.
+/// First point at which columns c and j differ by more than `rounding` times the number or column
+/// j's range, whichever is larger; the number of points if there is none.
 std::size_t first_difference(const PointSet& table, std::size_t c, const PointSet& design,
                              std::size_t j, double rounding) {
     double room = 0;
@@ -223,7 +214,7 @@ std::size_t first_difference(const PointSet& table, std::size_t c, const PointSe
     return i;
 }
 
-/// Columns of the table that are not copies of the candidate columns of the design.
+/// Columns of the table that are not copies of candidates, which are columns of the design.
 Numbers other_columns(const Columns& table, const Columns& design, const Numbers& candidates,
                       const RunContext& run) {
     const bool named = !table.table.provenance.columns.empty();
@@ -256,18 +247,13 @@ Numbers other_columns(const Columns& table, const Columns& design, const Numbers
     return others;
 }
 
-/// Reports columns that are neither inputs nor outputs.
 void note_unused(const Columns& table, const Numbers& inputs, const Numbers& outputs,
                  const RunContext& run) {
-    Numbers unused;
-    for (const std::size_t c : all_columns(table.table))
-        if (!in(inputs, c) && !in(outputs, c)) unused.push_back(c);
+    const Numbers unused = without(without(all_columns(table.table), inputs), outputs);
     if (unused.empty()) return;
     run.notify(fmt::format("{}: columns that are neither input nor output: {}", table.place,
                            names_of(unused, table.names)));
 }
-
-// ---------------------------------------------------------------- with and without a design file
 
 /// Names of the columns; a single output without a name is called "y".
 Names output_names(const PointSet& table) {
@@ -275,8 +261,7 @@ Names output_names(const PointSet& table) {
     return coordinate_names(table.dimension(), table.provenance);
 }
 
-/// Whether the columns of a table are assumed to be the domain's coordinates in order, since names
-/// are missing.
+/// Whether columns are assumed to be the domain's coordinates in order, since names are missing.
 bool by_position(const Known& known, const PointSet& table) {
     return known.names.empty() ||
            (table.provenance.columns.empty() && known.names.size() == table.dimension());
@@ -300,11 +285,10 @@ Runs with_design(const PointSet& outputs, const ColumnsAsked& asked, const RunCo
         candidates = inputs = known_columns(known, from);
         note_unused(from, inputs, {}, run);
     }
-    Runs runs{.inputs = inputs_of(from, inputs, known, run), .responses = {}};
+    Inputs found = inputs_of(from, inputs, known, run);
     const Numbers outs = asked.response.empty() ? other_columns(table, from, candidates, run)
                                                 : picked_columns(asked.response, table, "response");
-    for (const std::size_t c : outs) runs.responses.push_back(response_of(table, c));
-    return runs;
+    return {std::move(found), responses_of(table, outs)};
 }
 
 Runs without_design(const PointSet& all, const ColumnsAsked& asked, const RunContext& run) {
@@ -336,9 +320,7 @@ Runs without_design(const PointSet& all, const ColumnsAsked& asked, const RunCon
                         "--response and --inputs select others",
                         table.names[outputs[0]], names_of(inputs, table.names)));
     note_unused(table, inputs, outputs, run);
-    Runs runs{.inputs = inputs_of(table, inputs, known, run), .responses = {}};
-    for (const std::size_t c : outputs) runs.responses.push_back(response_of(table, c));
-    return runs;
+    return {inputs_of(table, inputs, known, run), responses_of(table, outputs)};
 }
 
 }  // namespace

@@ -17,14 +17,11 @@
 //     chaos     any independent inputs: S, ST, S_ij of a polynomial    (polynomial_chaos.cpp)
 //
 // Shape   n rows of outputs, n x k inputs; a failed run has no output (NaN).
-// Cost    that of the method; `auto` for a design without structure takes as long as chaos and
-//         rank.
+// Cost    that of the method; `auto` for a design without structure costs chaos and rank.
 // Promise the same for any number of threads. The bootstrap's seed is an option.
 // Beware  all indices are for independent inputs.
 // Source  A. Saltelli et al., "Global Sensitivity Analysis. The Primer", Wiley 2008,
 //         doi:10.1002/9780470725184; and those of the methods.
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +30,6 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "experiments/sensitivity/methods.hpp"
-#include "experiments/sensitivity/runs.hpp"
 
 namespace stipple::analyzers::sensitivity {
 namespace {
@@ -56,8 +52,7 @@ constexpr Param<Text> response{
     {.name = "response",
      .unit = "columns",
      .help = "Columns of the outputs, by name or number as for --inputs: y,z; default: all except "
-             "inputs "
-             "and their copies, or the last one if the names of the inputs are not known"}};
+             "inputs and their copies, or the last one if the names of the inputs are not known"}};
 
 constexpr Param<Choice> method{
     .name = "method",
@@ -116,7 +111,6 @@ Setting setting_of(const Values& options) {
     return setting;
 }
 
-/// Layout of the rows for a method. If the rows do not fit, the layout contains the reason.
 Layout find_layout(const std::string& kind, const PointSet& points, const Setting& setting,
                    const RunContext& run) {
     if (kind == "saltelli") return find_pick_freeze(points);
@@ -124,8 +118,7 @@ Layout find_layout(const std::string& kind, const PointSet& points, const Settin
     return find_curves(points, setting.harmonics, run);
 }
 
-/// Warns if the rows do not form the design of the generator that made them, or resemble a design
-/// without forming it.
+/// Warns if rows were made as a design that they do not form, or resemble a design.
 void note_broken(const Inputs& in, const std::string& trouble, const RunContext& run) {
     if (!trouble.empty())
         return run.notify(
@@ -143,8 +136,7 @@ void note_broken(const Inputs& in, const std::string& trouble, const RunContext&
             100 * share));
 }
 
-/// Chooses the method. @throws Error(input) if the design does not have the rows that the requested
-/// method needs
+/// Chooses the method. @throws Error(input) if the rows are not a design for the requested method
 Plan plan_of(const Inputs& in, const std::string& asked, const Setting& setting,
              const RunContext& run) {
     if (asked == "rank" || asked == "chaos") return {.method = asked};
@@ -159,8 +151,7 @@ Plan plan_of(const Inputs& in, const std::string& asked, const Setting& setting,
     std::string trouble;
     for (const std::string kind : {"saltelli", "morris", "fast"}) {
         const bool made = in.generator == kind;
-        // Any two values of a single input form a trajectory, so this would not indicate a Morris
-        // design.
+        // Any two values of a single input form a trajectory.
         if (kind == "morris" && in.size() == 1 && !made) continue;
         Layout layout = find_layout(kind, in.values, setting, run);
         if (layout) return {.method = kind, .layout = std::move(layout)};
@@ -171,36 +162,35 @@ Plan plan_of(const Inputs& in, const std::string& asked, const Setting& setting,
     return {};
 }
 
-/// Indices by chaos or, if no polynomial predicts well enough, by ranks; reports the method and the
-/// reason.
+/// Indices by chaos or, if no polynomial predicts well enough, by ranks, with the reason.
 Effects of_any_design(std::string& chosen, const Inputs& in, const Response& out,
                       const Setting& setting, const RunContext& run) {
     constexpr double enough = 0.8;
     constexpr std::size_t least = 8;  // smallest number of runs for chaos
     if (chosen == "rank") return rank_indices(in, out, setting, run);
-    const bool both = chosen.empty();
+    if (chosen == "chaos") {
+        auto effects = polynomial_chaos(in, out, setting, run);
+        if (effects) return *std::move(effects);
+        fail_with_hint(ErrorKind::input, "--method rank does not need a polynomial",
+                       "no polynomial predicts the output {} better than its mean", out.name);
+    }
+    std::optional<Effects> effects;
     std::string reason = fmt::format("fewer than {} runs, which chaos needs", least);
-    if (!both || succeeded(out.y).size() >= least) {
-        auto effects = polynomial_chaos(in, out, setting, both ? run.stage(0, 0.9) : run);
-        if (!effects && !both)
-            fail_with_hint(ErrorKind::input, "--method rank does not need a polynomial",
-                           "no polynomial predicts the output {} better than its mean", out.name);
-        chosen = "chaos";
-        if (!both) return *std::move(effects);
-        const double q2 = effects ? effects->details.number("q2") : 0;
+    if (succeeded(out.y).size() >= least) {
+        effects = polynomial_chaos(in, out, setting, run.stage(0, 0.9));
+        reason = "no polynomial predicts better than the mean";
+    }
+    if (effects) {
+        const double q2 = effects->details.number("q2");
         const bool good = q2 >= enough;
         reason =
             fmt::format("q2 of chaos is {:.3g}, {}{}", q2, good ? "at least " : "below ", enough);
-        if (!effects) reason = "no polynomial predicts better than the mean";
-        if (good) {
-            effects->details.add("reason", reason);
-            return *std::move(effects);
-        }
+        if (!good) effects.reset();
     }
-    chosen = "rank";
-    Effects effects = rank_indices(in, out, setting, run.stage(0.9, 1));
-    effects.details.add("reason", reason);
-    return effects;
+    chosen = effects ? "chaos" : "rank";
+    if (!effects) effects = rank_indices(in, out, setting, run.stage(0.9, 1));
+    effects->details.add("reason", reason);
+    return *std::move(effects);
 }
 
 /// Reason why no method can compute indices of an output; empty if some method can.
@@ -221,19 +211,16 @@ Effects effects_of(Plan& plan, const Runs& runs, const Response& out, const Sett
     return of_any_design(plan.method, runs.inputs, out, setting, run);
 }
 
-/// Reports which runs failed, and how many are used.
-void tell_failures(const Response& out, const Effects& effects, const RunContext& run) {
+void note_failures(const Response& out, const Effects& effects, const RunContext& run) {
     constexpr std::size_t few = 5;
-    std::vector<std::string> first;
-    std::size_t failed = 0;
-    for (std::size_t i = 0; i < out.y.size(); ++i) {
-        if (!std::isnan(out.y[i])) continue;
-        if (failed++ < few) first.push_back(std::to_string(i));
-    }
-    if (failed == 0) return;
+    std::vector<std::size_t> failed;
+    for (std::size_t i = 0; i < out.y.size(); ++i)
+        if (std::isnan(out.y[i])) failed.push_back(i);
+    if (failed.empty()) return;
+    const std::span first = std::span(failed).first(std::min(failed.size(), few));
     run.notify(fmt::format("{}: {} of {} runs failed, point{} {}{}; {} runs are used", out.name,
-                           failed, out.y.size(), failed == 1 ? "" : "s", join(first, ", "),
-                           failed > few ? ", ..." : "", effects.used));
+                           failed.size(), out.y.size(), failed.size() == 1 ? "" : "s",
+                           join(first, ", "), failed.size() > few ? ", ..." : "", effects.used));
 }
 
 /// Makes a name usable as a part of a key that differs from the keys already used.
@@ -243,7 +230,7 @@ std::string key_of(std::string name, const Report& taken) {
     return name;
 }
 
-/// Adds an index and its interval, without values that are infinite or NaN.
+/// Adds an index and its interval if they are finite.
 void add(Report& report, const std::string& name, const Index& index) {
     if (!std::isfinite(index.value)) return;
     report.add(name, index.value);
@@ -290,7 +277,6 @@ Report report_of(const Effects& effects, const std::string& name, const Inputs& 
     return report;
 }
 
-/// Report of an output that has no indices.
 Report report_of_none(const Response& out, const std::string& why) {
     Report report;
     report.add("failed", out.y.size() - succeeded(out.y).size());
@@ -300,10 +286,8 @@ Report report_of_none(const Response& out, const std::string& why) {
 /// Checks that no option belongs only to unused methods. @throws Error(usage)
 void check_options(const Values& options, const std::vector<std::string>& methods) {
     const auto require = [&](const auto& option, std::vector<std::string> of) {
-        const auto used = [&](const std::string& name) {
-            return std::ranges::find(methods, name) != methods.end();
-        };
-        if (options.given(option) && !methods.empty() && std::ranges::none_of(of, used))
+        const bool used = std::ranges::find_first_of(methods, of) != methods.end();
+        if (options.given(option) && !methods.empty() && !used)
             fail(ErrorKind::usage, "--{} applies to --method {}; this is {}", option.name,
                  join(of, " and "), methods.front());
     };
@@ -335,7 +319,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
         try {
             const Effects effects =
                 effects_of(own, runs, out, setting, run.stage(done / count, (done + 1) / count));
-            tell_failures(out, effects, run);
+            note_failures(out, effects, run);
             const auto* scale = std::get_if<std::string>(effects.details.find("scale"));
             if (scale != nullptr && *scale == "range" && methods.empty())
                 run.notify(
@@ -354,80 +338,76 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return report;
 }
 
+/// Records of the results. Those of an index are followed by those of its interval.
+std::vector<ResultKey> result_keys() {
+    std::vector<ResultKey> keys = {
+        {"OUTPUT.method", "saltelli, morris, fast, rank or chaos", true,
+         "saltelli|morris|fast|rank|chaos"},
+        {"OUTPUT.reason",
+         "for auto, if the rows form the design of no method: why chaos or rank was chosen"},
+        {"OUTPUT.missing",
+         "reason why an output has no indices, instead of its numbers: for example, it is constant",
+         false},
+        {"OUTPUT.no_intervals", "reason why indices have no intervals, for example few runs",
+         false},
+        {"OUTPUT.failed", "number of runs without this output"},
+        {"OUTPUT.used", "number of runs used for the indices"},
+        {"OUTPUT.samples",
+         "number of independent samples among them: base rows (saltelli), trajectories (morris), "
+         "points of a curve (fast), otherwise runs"},
+        {"OUTPUT.mean", "mean of the output; absent for morris"},
+        {"OUTPUT.variance",
+         "variance of the output, of which the indices are fractions; absent for morris"},
+        {"OUTPUT.q2",
+         "for chaos: fraction of the variance that polynomials predict in runs not used to fit "
+         "them (five-fold cross-validation); 0 or less if they predict nothing",
+         false},
+        {"OUTPUT.degree", "for chaos: largest total degree of the candidate terms", false},
+        {"OUTPUT.terms",
+         "for chaos: number of terms of the largest polynomial, without the constant", false},
+        {"OUTPUT.scale",
+         "for morris and chaos: how inputs are mapped to [0, 1]: cube: unchanged; box: from the "
+         "box in provenance or --bounds; distributions: by those in provenance or --parameters; "
+         "range: from their extremes. For chaos also values and ranks, which use the distribution "
+         "of the sample",
+         false, "cube|box|distributions|range|values|ranks"},
+        {"OUTPUT.INPUT.missing", "reason why some index of the input is missing", false}};
+    const auto add_index = [&](const std::string& key, const char* help, bool always = false,
+                               const std::string& absent = {}) {
+        keys.push_back({key, help, always});
+        keys.push_back({key + "_low", "lower end of its interval" + absent, always});
+        keys.push_back({key + "_high", "upper end of its interval" + absent, always});
+    };
+    add_index("OUTPUT.INPUT.first", "fraction of the variance that is due to the input alone", true,
+              "; absent for fast");
+    add_index("OUTPUT.INPUT.total",
+              "fraction that is due to the input, alone or together with others; absent for rank");
+    add_index("OUTPUT.INPUT.mu", "for morris: mean elementary effect");
+    add_index("OUTPUT.INPUT.mu_star", "for morris: mean absolute elementary effect");
+    add_index("OUTPUT.INPUT.sigma",
+              "for morris: standard deviation of elementary effects; large if the input acts "
+              "nonlinearly or together with others");
+    add_index("OUTPUT.PAIR.second",
+              "fraction that is due to two inputs together, beyond what each does alone; the pair "
+              "is named x:y; for saltelli with --second-order, and for chaos, which omits pairs of "
+              "index 0");
+    return keys;
+}
+
 }  // namespace
 
 Analyzer unit() {
-    return {
-        .name = "sensitivity",
-        .summary = "Sobol' indices and elementary effects of a model's inputs, from its runs",
-        .source = "Saltelli et al. 2008, doi:10.1002/9780470725184",
-        .related = {"sobol-indices", "variance-based", "screening", "uncertainty", "surrogate",
-                    "polynomial-chaos", "elementary-effects", "gsa", "salib", "pick-freeze"},
-        .traits = {.unit_cube = false, .table = true},
-        .options = Schema(design, inputs, response, method, bootstrap, bootstrap_seed, level,
-                          harmonics, degree),
-        .results =
-            {{"OUTPUT.method", "saltelli, morris, fast, rank or chaos", true,
-              "saltelli|morris|fast|rank|chaos"},
-             {"OUTPUT.reason",
-              "for auto, if the rows form the design of no method: why chaos or rank was chosen"},
-             {"OUTPUT.missing",
-              "reason why an output has no indices, instead of its numbers: for example, it is "
-              "constant",
-              false},
-             {"OUTPUT.no_intervals", "reason why indices have no intervals, for example few runs",
-              false},
-             {"OUTPUT.failed", "number of runs without this output"},
-             {"OUTPUT.used", "number of runs used for the indices"},
-             {"OUTPUT.samples",
-              "number of independent samples among them: base rows (saltelli), trajectories "
-              "(morris), points of a curve (fast), otherwise runs"},
-             {"OUTPUT.mean", "mean of the output; absent for morris"},
-             {"OUTPUT.variance",
-              "variance of the output, of which the indices are fractions; absent for morris"},
-             {"OUTPUT.q2",
-              "for chaos: fraction of the variance that polynomials predict in runs not used to "
-              "fit them (five-fold cross-validation); 0 or less if they predict nothing",
-              false},
-             {"OUTPUT.degree", "for chaos: largest total degree of the candidate terms", false},
-             {"OUTPUT.terms",
-              "for chaos: number of terms of the largest polynomial, without the constant", false},
-             {"OUTPUT.scale",
-              "for morris and chaos: how inputs are mapped to [0, 1]: cube: unchanged; box: from "
-              "the box in provenance or --bounds; distributions: by those in provenance or "
-              "--parameters; range: from their extremes. For chaos also values and ranks, which "
-              "use the distribution of the sample",
-              false, "cube|box|distributions|range|values|ranks"},
-             {"OUTPUT.INPUT.missing", "reason why some index of the input is missing", false},
-             {"OUTPUT.INPUT.first", "fraction of the variance that is due to the input alone"},
-             {"OUTPUT.INPUT.first_low", "lower end of its interval; absent for fast"},
-             {"OUTPUT.INPUT.first_high", "upper end of its interval; absent for fast"},
-             {"OUTPUT.INPUT.total",
-              "fraction that is due to the input, alone or together with others; absent for rank",
-              false},
-             {"OUTPUT.INPUT.total_low", "lower end of its interval", false},
-             {"OUTPUT.INPUT.total_high", "upper end of its interval", false},
-             {"OUTPUT.INPUT.mu", "for morris: mean elementary effect", false},
-             {"OUTPUT.INPUT.mu_low", "lower end of its interval", false},
-             {"OUTPUT.INPUT.mu_high", "upper end of its interval", false},
-             {"OUTPUT.INPUT.mu_star", "for morris: mean absolute elementary effect", false},
-             {"OUTPUT.INPUT.mu_star_low", "lower end of its interval", false},
-             {"OUTPUT.INPUT.mu_star_high", "upper end of its interval", false},
-             {"OUTPUT.INPUT.sigma",
-              "for morris: standard deviation of elementary effects; large if the input acts "
-              "nonlinearly or together with others",
-              false},
-             {"OUTPUT.INPUT.sigma_low", "lower end of its interval", false},
-             {"OUTPUT.INPUT.sigma_high", "upper end of its interval", false},
-             {"OUTPUT.PAIR.second",
-              "fraction that is due to two inputs together, beyond what each does alone; the pair "
-              "is named x:y; for saltelli with --second-order, and for chaos, which omits pairs of "
-              "index 0",
-              false},
-             {"OUTPUT.PAIR.second_low", "lower end of its interval", false},
-             {"OUTPUT.PAIR.second_high", "upper end of its interval", false}},
-        .analyze = analyze,
-        .cost = [](double n, double d) { return 3e-6 * n * (d + 1); }};
+    return {.name = "sensitivity",
+            .summary = "Sobol' indices and elementary effects of a model's inputs, from its runs",
+            .source = "Saltelli et al. 2008, doi:10.1002/9780470725184",
+            .related = {"sobol-indices", "variance-based", "screening", "uncertainty", "surrogate",
+                        "polynomial-chaos", "elementary-effects", "gsa", "salib", "pick-freeze"},
+            .traits = {.unit_cube = false, .table = true},
+            .options = Schema(design, inputs, response, method, bootstrap, bootstrap_seed, level,
+                              harmonics, degree),
+            .results = result_keys(),
+            .analyze = analyze,
+            .cost = [](double n, double d) { return 3e-6 * n * (d + 1); }};
 }
 
 }  // namespace stipple::analyzers::sensitivity

@@ -3,13 +3,12 @@
 // Detects rows that are neither an independent sample nor the design of a known method.
 #include "experiments/sensitivity/methods.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <utility>
 
+#include "core/error.hpp"
 #include "math/combinatorics/splitmix64.hpp"
 
 namespace stipple::analyzers::sensitivity {
@@ -24,8 +23,7 @@ struct Levels {
 };
 
 Levels levels_of(const PointSet& points, std::size_t j) {
-    std::vector<double> values(points.count());
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = points[i][j];
+    auto values = column_of(points, j);
     std::ranges::sort(values);
     Levels levels;
     for (auto first = values.begin(); first != values.end(); ++levels.count) {
@@ -57,8 +55,7 @@ double share_of_neighbors(const PointSet& points, const RunContext& run) {
             if (c != j) equal *= levels[c].chance;
         neighbors += equal;
     }
-    // Sums of hashed coordinates. Without the term of coordinate j, two rows have the same sum if
-    // all other coordinates are equal.
+    // Sums of hashed coordinates: without that of j, they are equal if all others are equal.
     const auto code = [&](std::size_t i, std::size_t j) {
         return SplitMix64(std::bit_cast<std::uint64_t>(points[i][j] + 0.0) + j).next();
     };
@@ -90,21 +87,22 @@ void note_dependence(const Inputs& in, const RunContext& run) {
     const std::size_t k = in.size();
     const double pairs = static_cast<double>(k) * static_cast<double>(k - 1) / 2;
     if (k < 2 || std::max(pairs, 30.0) * static_cast<double>(n) > most_work) return;
-    const std::vector<double> ranks = ranks_of(in.values);
-    std::vector<double> squares(k);
-    std::vector<std::size_t> levels(k);
-    for (std::size_t i = 0; i < ranks.size(); ++i) squares[i % k] += std::pow(ranks[i] - 0.5, 2);
-    for (std::size_t j = 0; j < k; ++j) levels[j] = levels_of(in.values, j).count;
+    std::vector<std::vector<double>> ranks;  // minus their mean
+    std::vector<double> squares;
+    std::vector<std::size_t> levels;
+    for (std::size_t j = 0; j < k; ++j) {
+        auto& of_input = ranks.emplace_back(ranks_of(column_of(in.values, j)));
+        for (double& rank : of_input) rank -= 0.5;
+        squares.push_back(dot(of_input, of_input));
+        levels.push_back(levels_of(in.values, j).count);
+    }
     double largest = 0, correlation = 0;
     std::pair<std::size_t, std::size_t> at;
     for (std::size_t a = 0; a < k; ++a)
         for (std::size_t b = a + 1; b < k; ++b) {
             run.check_stop();
-            double sum = 0;
-            for (std::size_t i = 0; i < n; ++i)
-                sum += (ranks[i * k + a] - 0.5) * (ranks[i * k + b] - 0.5);
             if (!(squares[a] * squares[b] > 0)) continue;
-            const double r = sum / std::sqrt(squares[a] * squares[b]);
+            const double r = dot(ranks[a], ranks[b]) / std::sqrt(squares[a] * squares[b]);
             // Rows that repeat coordinates are not independent, so only distinct values count. But
             // if there are few values, they are levels, which repeat in independent rows, too.
             constexpr std::size_t few = 30;
