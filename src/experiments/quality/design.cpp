@@ -11,35 +11,43 @@
 //                     measure of Gunzburger and Burkardt, 0 for a grid
 //     correlation     of two coordinates: the largest absolute value, and the root mean square
 //     line, plane     smallest distance of two points in any projection to one axis or to two
-//     efficiency      D, A and G for a polynomial model (model_efficiency.hpp), each coordinate
-//                     scaled so that its lowest and highest values in the design are -1 and 1
+//     efficiency      D, A and G for estimating the p coefficients of a polynomial model
 //
-// and, for comparison, the means of all criteria over random Latin hypercubes with the same number
-// of points and the seeds 1, 2, ....
+// and the means of all criteria over random Latin hypercubes of n points, with the seeds 1, 2, ....
+//
+// Each coordinate is scaled for the model, so that its lowest and highest values in the design are
+// -1 and 1. With f(x) the row of the model's terms at x, X the matrix of the rows of all runs, and
+// M = X^T X,
+//
+//     D = det(M)^(1/p) / n,     A = p / (n trace(M^-1)),     G = p / (n max_x f(x)^T M^-1 f(x)),
+//
+// which are 1 for an orthogonal design with all coordinates at -1 and 1, and 0 if M is singular.
 //
 // Shape   n x d, n >= 2, d <= 1000. Sums over pairs for up to 16384 points; planes for d <= 32.
 // Units   lengths of the unit cube.
 // Cost    O(n^2 d) for one set, and as much for each Latin hypercube; 0.2 s for 10 of them at n =
-//         1000, d = 5 on one core.
+//         1000, d = 5 on one core; O(n p^2 + p^3 + c p^2) for c candidates x of the maximum in G.
 // Promise infinite values (points that coincide; maxpro where two share a coordinate) are left out.
 //         The same for any number of threads.
 // Source  M. D. Morris, T. J. Mitchell, J. Stat. Plan. Inference 43 (1995) 381-402,
 //         doi:10.1016/0378-3758(94)00035-T; P. Audze, V. Eglais, Problems of Dynamics and Strengths
 //         35 (1977) 104-107; V. R. Joseph, E. Gul, S. Ba, Biometrika 102 (2015) 371-380,
 //         doi:10.1093/biomet/asv002; M. Gunzburger, J. Burkardt, "Uniformity measures for point
-//         samples in hypercubes" (2004).
+//         samples in hypercubes" (2004); A. C. Atkinson, A. N. Donev, R. D. Tobias, "Optimum
+//         Experimental Designs, with SAS", Oxford 2007, chapters 9 to 11 (efficiencies).
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "analyzers/analyzer.hpp"
 #include "analyzers/distances/distances.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "experiments/quality/model_efficiency.hpp"
+#include "math/functions/cholesky.hpp"
+#include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"
+#include "math/functions/powers.hpp"
 #include "stipple/generate.hpp"
 
 namespace stipple::analyzers::design {
@@ -72,21 +80,12 @@ Distances straight_in_cube(std::size_t dimension) {
     return {.torus = false, .box = unit_cube(dimension)->bounding_box()};
 }
 
-/// Projection of points to some axes.
-PointSet projected(const PointSet& points, const std::vector<std::size_t>& axes) {
-    PointSet image(points.count(), axes.size());
-    for (std::size_t i = 0; i < points.count(); ++i)
-        for (std::size_t k = 0; k < axes.size(); ++k) image[i][k] = points[i][axes[k]];
-    return image;
+std::vector<double> column_of(const PointSet& points, std::size_t k) {
+    std::vector<double> column;
+    for (std::size_t i = 0; i < points.count(); ++i) column.push_back(points[i][k]);
+    return column;
 }
 
-/// A smallest or largest value, and the axes (from 0) at which it occurs.
-struct AtAxes {
-    double value = 0;
-    std::vector<std::size_t> axes = {};
-};
-
-/// Sums over pairs of points.
 struct PairSums {
     double powers = 0;       ///< terms (minimum / distance)^p
     double reciprocals = 0;  ///< terms 1 / distance^2
@@ -101,14 +100,8 @@ struct PairSums {
     }
 };
 
-/// Smallest distance of two points, and the standard deviation divided by the mean of the distances
-/// to the nearest neighbours.
-struct Separation {
-    double minimum = 0;
-    double variation = 0;
-};
-
-Separation separation_of(const PointSet& points, const RunContext& run) {
+/// Adds the criteria of the distances to the nearest neighbours; returns the smallest distance.
+double add_separation(Report& report, const PointSet& points, const RunContext& run) {
     const auto neighbors = nearest_neighbors(points, straight_in_cube(points.dimension()), run);
     const auto n = static_cast<double>(neighbors.size());
     double mean = 0;
@@ -118,21 +111,17 @@ Separation separation_of(const PointSet& points, const RunContext& run) {
         const double deviation = std::sqrt(near.squared) - mean;
         squares += deviation * deviation / n;
     }
-    return {std::sqrt(closest_pair(neighbors).second.squared),
-            mean > 0 ? std::sqrt(squares) / mean : 0};
+    const double minimum = std::sqrt(closest_pair(neighbors).second.squared);
+    report.add("minimum", minimum);
+    report.add("minimum_squared", minimum * minimum);
+    report.add("variation", mean > 0 ? std::sqrt(squares) / mean : 0);
+    return minimum;
 }
 
-/// Criteria that are sums over all pairs of points.
-struct PairCriteria {
-    double phi_p = 0;
-    double audze_eglais = 0;
-    double maxpro = 0;
-};
-
-/// @param minimum the smallest distance; criteria are infinite if it is 0 or points share
-/// coordinates
-PairCriteria pair_criteria(const PointSet& points, double p, double minimum,
-                           const RunContext& run) {
+/// Adds the criteria that are sums over all pairs of points, unless they are infinite.
+/// @param minimum the smallest distance
+void add_pair_criteria(Report& report, const PointSet& points, double p, double minimum,
+                       const RunContext& run) {
     constexpr std::uint64_t size = 16;
     const std::size_t n = points.count();
     const std::size_t d = points.dimension();
@@ -156,31 +145,41 @@ PairCriteria pair_criteria(const PointSet& points, double p, double minimum,
     });
     PairSums all;
     for (const PairSums& part : parts) all += part;
+    const auto add = [&](const char* name, double value) {
+        if (std::isfinite(value)) report.add(name, value);
+    };
+    if (minimum > 0) {
+        add("phi_p", real_power(all.powers, 1 / p) / minimum);
+        add("audze_eglais", all.reciprocals);
+    }
     const auto pairs = 0.5 * static_cast<double>(n) * static_cast<double>(n - 1);
-    return {minimum > 0 ? real_power(all.powers, 1 / p) / minimum : infinite,
-            minimum > 0 ? all.reciprocals : infinite,
-            std::isfinite(all.products)
-                ? 16 * real_power(all.products / pairs, 1 / static_cast<double>(d))
-                : infinite};
+    if (std::isfinite(all.products))
+        add("maxpro", 16 * real_power(all.products / pairs, 1 / static_cast<double>(d)));
 }
 
-/// Largest absolute correlation of two coordinates, and root mean square of all correlations.
-/// Constant coordinates are left out; nullopt if fewer than two coordinates remain.
-struct Correlation {
-    AtAxes largest;
-    double rms = 0;
+/// A smallest or largest value, and the axes (from 0) at which it occurs.
+struct AtAxes {
+    double value = 0;
+    std::vector<std::size_t> axes = {};
 };
 
-std::optional<Correlation> correlation_of(const PointSet& points) {
+/// Adds a value and, counted from 1, its axes.
+void add_at(Report& report, const char* name, const char* name_of_axes, const AtAxes& at) {
+    Report::Integers numbers;
+    for (const std::size_t k : at.axes) numbers.push_back(static_cast<std::int64_t>(k + 1));
+    report.add(name, at.value);
+    report.add(name_of_axes, std::move(numbers));
+}
+
+/// Adds correlations of coordinates that are not constant, if there are two such coordinates.
+void add_correlations(Report& report, const PointSet& points) {
     const std::size_t n = points.count();
-    const std::size_t d = points.dimension();
     std::vector<std::size_t> axes;
     std::vector<std::vector<double>> columns;  // centred and of length 1
-    for (std::size_t k = 0; k < d; ++k) {
-        std::vector<double> column(n);
+    for (std::size_t k = 0; k < points.dimension(); ++k) {
+        auto column = column_of(points, k);
         double mean = 0;
-        for (std::size_t i = 0; i < n; ++i)
-            mean += (column[i] = points[i][k]) / static_cast<double>(n);
+        for (const double c : column) mean += c / static_cast<double>(n);
         const auto [low, high] = std::ranges::minmax(column);
         if (low == high) continue;
         double squares = 0;
@@ -189,27 +188,26 @@ std::optional<Correlation> correlation_of(const PointSet& points) {
         axes.push_back(k);
         columns.push_back(std::move(column));
     }
-    if (axes.size() < 2) return std::nullopt;
-    Correlation found{.largest = {-1, {}}};
+    if (axes.size() < 2) return;
+    AtAxes largest{-1, {}};
     double squares = 0;
     for (std::size_t a = 1; a < axes.size(); ++a)
         for (std::size_t b = 0; b < a; ++b) {
             double sum = 0;
             for (std::size_t i = 0; i < n; ++i) sum += columns[a][i] * columns[b][i];
             squares += sum * sum;
-            if (std::abs(sum) > found.largest.value)
-                found.largest = {std::abs(sum), {axes[b], axes[a]}};
+            if (std::abs(sum) > largest.value) largest = {std::abs(sum), {axes[b], axes[a]}};
         }
-    found.rms = std::sqrt(squares / (0.5 * static_cast<double>(axes.size() * (axes.size() - 1))));
-    return found;
+    add_at(report, "largest_correlation", "largest_correlation_axes", largest);
+    const auto pairs = 0.5 * static_cast<double>(axes.size() * (axes.size() - 1));
+    report.add("rms_correlation", std::sqrt(squares / pairs));
 }
 
 /// Smallest distance of two points in any projection to one axis.
 AtAxes closest_on_axis(const PointSet& points) {
     AtAxes closest{infinite, {}};
-    std::vector<double> column(points.count());
     for (std::size_t k = 0; k < points.dimension(); ++k) {
-        for (std::size_t i = 0; i < column.size(); ++i) column[i] = points[i][k];
+        auto column = column_of(points, k);
         std::ranges::sort(column);
         for (std::size_t i = 1; i < column.size(); ++i)
             if (column[i] - column[i - 1] < closest.value)
@@ -221,27 +219,19 @@ AtAxes closest_on_axis(const PointSet& points) {
 /// Smallest distance of two points in any projection to two axes, in O(n log n) for each.
 AtAxes closest_on_plane(const PointSet& points, const RunContext& run) {
     AtAxes closest{infinite, {}};
+    PointSet plane(points.count(), 2);
     for (std::size_t a = 1; a < points.dimension(); ++a)
         for (std::size_t b = 0; b < a; ++b) {
             run.check_stop();
-            const auto neighbors =
-                nearest_neighbors(projected(points, {b, a}), straight_in_cube(2), silent(run));
+            for (std::size_t i = 0; i < points.count(); ++i) {
+                plane[i][0] = points[i][b];
+                plane[i][1] = points[i][a];
+            }
+            const auto neighbors = nearest_neighbors(plane, straight_in_cube(2), silent(run));
             const double distance = std::sqrt(closest_pair(neighbors).second.squared);
             if (distance < closest.value) closest = {distance, {b, a}};
         }
     return closest;
-}
-
-/// Adds a criterion unless it is infinite, which happens if two points share a coordinate.
-void add_finite(Report& report, const char* name, double value) {
-    if (std::isfinite(value)) report.add(name, value);
-}
-
-/// Axis numbers from 1, as shown to users.
-Report::Integers from_one(const std::vector<std::size_t>& axes) {
-    Report::Integers numbers;
-    for (const std::size_t k : axes) numbers.push_back(static_cast<std::int64_t>(k + 1));
-    return numbers;
 }
 
 /// Coordinates scaled so that the lowest value of each is -1 and the highest is 1.
@@ -257,51 +247,130 @@ std::vector<double> coded(const PointSet& cube) {
     return rows;
 }
 
+enum class Model { none, linear, interaction, quadratic };  // in the order of --model
+
 Model model_of(const Values& options) {
-    const std::string name = options[model];
-    return name == "linear"        ? Model::linear
-           : name == "interaction" ? Model::interaction
-                                   : Model::quadratic;
+    const auto names = describe(model).choices;
+    return static_cast<Model>(std::ranges::find(names, options[model]) - names.begin());
 }
 
-void add_efficiency(Report& report, const PointSet& cube, const Values& options,
-                    const RunContext& run) {
-    if (options[model] == "none") return;
-    const Efficiency found =
-        model_efficiency(coded(cube), cube.dimension(), model_of(options), run);
-    report.add("d_efficiency", found.d);
-    report.add("a_efficiency", found.a);
-    report.add("g_efficiency", found.g);
-    report.add("g_places", found.places);
+std::size_t model_terms(Model kind, std::size_t d) {
+    if (kind <= Model::linear) return kind == Model::none ? 0 : 1 + d;
+    return 1 + d + d * (d - 1) / 2 + (kind == Model::quadratic ? d : 0);
+}
+
+void terms_of(std::span<const double> x, Model kind, std::vector<double>& f) {
+    f.assign(1, 1);
+    f.insert(f.end(), x.begin(), x.end());
+    if (kind == Model::linear) return;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        for (std::size_t j = kind == Model::quadratic ? i : i + 1; j < x.size(); ++j)
+            f.push_back(x[i] * x[j]);
+}
+
+/// Lower triangle of M.
+std::vector<double> information(std::span<const double> coded, std::size_t dimension, Model kind,
+                                const RunContext& run) {
+    const std::size_t p = model_terms(kind, dimension);
+    const std::size_t n = coded.size() / dimension;
+    std::vector<double> m(p * p);
+    std::vector<double> f;
+    for (std::size_t i = 0; i < n; ++i) {
+        terms_of(coded.subspan(i * dimension, dimension), kind, f);
+        for (std::size_t a = 0; a < p; ++a)
+            for (std::size_t b = 0; b <= a; ++b) m[a * p + b] += f[a] * f[b];
+        if (i % 256 == 0) run.check_stop();
+    }
+    return m;
+}
+
+/// Replaces f, whose elements before `first` are 0, by L^-1 f; returns its squared length.
+double solve(std::span<const double> factor, std::size_t first, std::vector<double>& f) {
+    const std::size_t p = f.size();
+    double squares = 0;
+    for (std::size_t i = first; i < p; ++i) {
+        double rest = f[i];
+        for (std::size_t j = first; j < i; ++j) rest -= factor[i * p + j] * f[j];
+        f[i] = rest / factor[i * p + i];
+        squares += f[i] * f[i];
+    }
+    return squares;
+}
+
+double trace_of_inverse(std::span<const double> factor, std::size_t p, const RunContext& run) {
+    double trace = 0;
+    std::vector<double> column(p);
+    for (std::size_t k = 0; k < p; ++k) {
+        std::ranges::fill(column, 0.0);
+        column[k] = 1;
+        trace += solve(factor, k, column);
+        run.check_stop();
+    }
+    return trace;
+}
+
+/// Largest f^T M^-1 f over `count` points x; place(i, x) writes the i-th to x.
+template <class Place>
+double largest_variance(std::span<const double> factor, std::size_t dimension, Model kind,
+                        std::uint64_t count, const Place& place, const RunContext& run) {
+    constexpr std::uint64_t size = 64;
+    std::vector<double> largest(block_count(count, size));
+    for_each_block(run, count, size, [&](const Block& block) {
+        std::vector<double> x(dimension);
+        std::vector<double> f;
+        for (std::uint64_t i = block.first; i < block.last; ++i) {
+            place(i, x);
+            terms_of(x, kind, f);
+            largest[block.index] = std::max(largest[block.index], solve(factor, 0, f));
+        }
+    });
+    return std::ranges::max(largest);
+}
+
+/// Adds the efficiencies. The maximum in G is over corners of the cube or, for quadratic models,
+/// the grid of -1, 0, 1; over the design's own points if these are too many.
+void add_efficiencies(Report& report, const PointSet& cube, Model kind, const RunContext& run) {
+    constexpr double most_steps = 2e9;
+    const auto rows = coded(cube);
+    const std::size_t d = cube.dimension();
+    const std::size_t p = model_terms(kind, d);
+    const std::uint64_t levels = kind == Model::quadratic ? 3 : 2;
+    const std::uint64_t grid = saturating_power(levels, d);
+    const bool all = static_cast<double>(grid) * static_cast<double>(p * p) < most_steps;
+    const auto add = [&](double of_d, double of_a, double of_g) {
+        report.add("d_efficiency", of_d);
+        report.add("a_efficiency", of_a);
+        report.add("g_efficiency", of_g);
+        report.add("g_places", !all ? "points" : levels == 2 ? "corners" : "grid");
+    };
+    const Cholesky root = cholesky(information(rows, d, kind, run), p);
+    if (root.failed != 0) return add(0, 0, 0);
+    double log_determinant = 0;
+    for (std::size_t i = 0; i < p; ++i) log_determinant += 2 * logarithm(root.factor[i * p + i]);
+    const auto place = [&](std::uint64_t i, std::vector<double>& x) {
+        if (!all) std::ranges::copy(std::span(rows).subspan(i * d, d), x.begin());
+        for (std::size_t k = 0; all && k < d; ++k, i /= levels)
+            x[k] = 2 * static_cast<double>(i % levels) / static_cast<double>(levels - 1) - 1;
+    };
+    const double variance =
+        largest_variance(root.factor, d, kind, all ? grid : cube.count(), place, run);
+    const auto n = static_cast<double>(cube.count());
+    const auto terms = static_cast<double>(p);
+    add(exponential(log_determinant / terms) / n,
+        terms / (n * trace_of_inverse(root.factor, p, run)), terms / (n * variance));
 }
 
 Report criteria_of(const PointSet& cube, const Values& options, const RunContext& run) {
     Report report;
-    const Separation separation = separation_of(cube, run.stage(0, 0.1));
-    report.add("minimum", separation.minimum);
-    report.add("minimum_squared", separation.minimum * separation.minimum);
-    report.add("variation", separation.variation);
-    if (cube.count() <= most_paired) {
-        const PairCriteria pairs =
-            pair_criteria(cube, options[exponent], separation.minimum, run.stage(0.1, 0.7));
-        add_finite(report, "phi_p", pairs.phi_p);
-        add_finite(report, "audze_eglais", pairs.audze_eglais);
-        add_finite(report, "maxpro", pairs.maxpro);
-    }
-    if (const auto correlation = correlation_of(cube)) {
-        report.add("largest_correlation", correlation->largest.value);
-        report.add("largest_correlation_axes", from_one(correlation->largest.axes));
-        report.add("rms_correlation", correlation->rms);
-    }
-    const AtAxes line = closest_on_axis(cube);
-    report.add("line_minimum", line.value);
-    report.add("line_axis", from_one(line.axes));
-    if (cube.dimension() >= 2 && cube.dimension() <= most_planes) {
-        const AtAxes plane = closest_on_plane(cube, run);
-        report.add("plane_minimum", plane.value);
-        report.add("plane_axes", from_one(plane.axes));
-    }
-    add_efficiency(report, cube, options, run.stage(0.7, 1));
+    const double minimum = add_separation(report, cube, run.stage(0, 0.1));
+    if (cube.count() <= most_paired)
+        add_pair_criteria(report, cube, options[exponent], minimum, run.stage(0.1, 0.7));
+    add_correlations(report, cube);
+    add_at(report, "line_minimum", "line_axis", closest_on_axis(cube));
+    if (cube.dimension() >= 2 && cube.dimension() <= most_planes)
+        add_at(report, "plane_minimum", "plane_axes", closest_on_plane(cube, run));
+    if (const Model fitted = model_of(options); fitted != Model::none)
+        add_efficiencies(report, cube, fitted, run.stage(0.7, 1));
     return report;
 }
 
@@ -339,8 +408,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     static_cast<void>(distances_in_box(points, "euclidean", "design"));
     const std::size_t n = points.count();
     if (n == 1) fail(ErrorKind::input, "design needs at least two points; this is one");
-    const bool modelled = options[model] != "none";
-    const std::size_t terms = modelled ? model_terms(model_of(options), points.dimension()) : 0;
+    const std::size_t terms = model_terms(model_of(options), points.dimension());
     if (n < terms)
         fail_with_hint(ErrorKind::input, "--model none omits the efficiencies",
                        "{} points are fewer than the {} terms of --model {}", n, terms,
@@ -351,20 +419,11 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     const PointSet cube = in_cube(points);
     const double share = 1 / (1 + static_cast<double>(options[compare]));
     Report report = criteria_of(cube, options, run.stage(0, share));
-    if (modelled) report.add("terms", terms);
+    if (terms > 0) report.add("terms", terms);
     if (options[compare] > 0)
         report.add("latin_hypercube", of_hypercubes(cube, options, run.stage(share, 1)));
     run.tick(1, 1);
     return report;
-}
-
-/// Axes cannot be averaged.
-void refine(Report& mean, std::size_t sets, const Values&) {
-    if (sets > 1) drop(mean, {"largest_correlation_axes", "line_axis", "plane_axes"});
-}
-
-double seconds(double n, double d) {
-    return 11 * (n < 16384 ? 2e-8 * n * n : 1e-6 * n) * (1 + d / 8);
 }
 
 }  // namespace
@@ -410,8 +469,11 @@ Analyzer unit() {
              {"terms", "number p of terms of the model"},
              {"latin_hypercube.CRITERION", "mean of that criterion over random Latin hypercubes"}},
         .analyze = analyze,
-        .cost = seconds,
-        .refine = refine};
+        .cost = [](double n,
+                   double d) { return 11 * (n < 16384 ? 2e-8 * n * n : 1e-6 * n) * (1 + d / 8); },
+        .refine = [](Report& mean, std::size_t sets, const Values&) {  // axes cannot be averaged
+            if (sets > 1) drop(mean, {"largest_correlation_axes", "line_axis", "plane_axes"});
+        }};
 }
 
 }  // namespace stipple::analyzers::design

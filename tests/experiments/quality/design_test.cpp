@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "experiments/quality/model_efficiency.hpp"
 #include "pipeline/chain.hpp"
 #include "support/units.hpp"
 
