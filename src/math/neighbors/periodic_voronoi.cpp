@@ -298,9 +298,40 @@ void PeriodicVoronoi::cut_by_candidates(std::uint32_t i, VoronoiCell& cell, doub
 }
 
 void PeriodicVoronoi::cut_cell(std::size_t i, VoronoiCell& cell, double needed) const {
+    start(sides_, torus_, sites_[i].at, static_cast<std::uint32_t>(i), cell);
+    cut_started(i, cell, needed);
+}
+
+void PeriodicVoronoi::cut_exactly(std::size_t i, VoronoiCell& cell) const {
+    cut_cell(i, cell);
+    // The corners have errors of about 1e-16 times the size of the rectangle at the start. So it is
+    // cut again from a smaller one around its corners, as long as it is much smaller than that.
+    const Vec2 at = sites_[i].at;
+    double size = std::max(sides_.x, sides_.y);
+    while (cell.squared_reach() < 1e-12 * size * size) {
+        const double half = 4 * std::sqrt(cell.squared_reach()) + 1e-14 * size;
+        start(sides_, torus_, at, static_cast<std::uint32_t>(i), cell);
+        std::array<CellCorner, 4> box;
+        std::ranges::copy(cell.corners(), box.begin());
+        for (CellCorner& corner : box) {
+            const double across = std::abs(corner.neighbor.x) + std::abs(corner.neighbor.y);
+            if (across > 2 * half) {  // an edge of the smaller rectangle, at this distance
+                const double shrink = 2 * half / across;
+                corner.neighbor = {corner.neighbor.x * shrink, corner.neighbor.y * shrink};
+                corner.site = static_cast<std::uint32_t>(i);
+            }
+            corner.at = {std::clamp(corner.at.x, -half, half),
+                         std::clamp(corner.at.y, -half, half)};
+        }
+        cell.start(box);
+        cut_started(i, cell, 0);
+        size = 2 * half;
+    }
+}
+
+void PeriodicVoronoi::cut_started(std::size_t i, VoronoiCell& cell, double needed) const {
     const Site& site = sites_[i];
     const auto own = static_cast<std::uint32_t>(i);
-    start(sides_, torus_, site.at, own, cell);
     const std::int64_t rings = std::max(columns_, rows_);
     const double weight = weights_.empty() ? 0 : weights_[i];
     // Sites outside a block of rings are at least as far away as the block's rim.

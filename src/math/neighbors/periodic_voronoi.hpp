@@ -131,6 +131,10 @@ class PeriodicVoronoi {
     /// from the site is below `needed`. Thread-safe.
     void cut_cell(std::size_t i, VoronoiCell& cell, double needed = 0) const;
 
+    /// Like cut_cell(), for cells that may be tiny: their corners have a relative error of 1e-9
+    /// even so. Without weights only.
+    void cut_exactly(std::size_t i, VoronoiCell& cell) const;
+
     /// Moves `at` into [0, side) by whole sides on the torus; otherwise to the nearest wall.
     [[nodiscard]] Vec2 inside(Vec2 at) const;
 
@@ -145,6 +149,8 @@ class PeriodicVoronoi {
         std::uint32_t cell = none;
     };
 
+    /// Cuts a cell that has been started.
+    void cut_started(std::size_t i, VoronoiCell& cell, double needed) const;
     [[nodiscard]] std::int64_t column_of(double x) const;
     [[nodiscard]] std::int64_t row_of(double y) const;
     [[nodiscard]] double squared_security(double squared_reach, double weight) const;

@@ -57,7 +57,8 @@ PlanarCells::PlanarCells(const PlanarSites& sites, const RunContext& run)
 }
 
 void PlanarCells::cut(std::size_t i, VoronoiCell& cell, double needed) const {
-    if (grid_) return grid_->cut_cell(i, cell, needed);
+    if (grid_ && needed > 0) return grid_->cut_cell(i, cell, needed);
+    if (grid_) return grid_->cut_exactly(i, cell);
     cut_by_neighbors(i, cell);
 }
 

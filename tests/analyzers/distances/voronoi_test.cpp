@@ -343,4 +343,27 @@ TEST(Voronoi, RefusesWhatHasNoCells) {
               "input: voronoi requires points of dimension 2; these have 3");
 }
 
+// A cluster's inner cells are the same in its own units, however small it is.
+TEST(Voronoi, CellsOfTinyClustersKeepTheirDigits) {
+    const PointSet random = make("random", points(12, 2), {}, {.seed = 5});
+    const auto smallest = [&](double scale, const char* metric) {
+        PointSet set = random;
+        for (double& x : set.flat()) x *= scale;
+        return measure(unit, "area.smallest", set, {{"metric", metric}}) / scale / scale;
+    };
+    for (const char* metric : {"torus", "euclidean"}) {
+        const double expected = smallest(0x1p-12, metric);
+        for (const double scale : {0x1p-26, 0x1p-45, 0x1p-100, 0x1p-300})
+            EXPECT_NEAR(smallest(scale, metric) / expected, 1, 1e-8) << scale << metric;
+    }
+}
+
+TEST(Voronoi, RefusesBoxesWhosePowersLeaveFloat64) {
+    for (const double side : {1e-170, 1e-85, 1e85}) {
+        const PointSet set =
+            on(points_of({{0, 0}, {side / 2, side / 4}, {side / 8, side}}), {{0, 0}, {side, side}});
+        EXPECT_NE(error_of([&] { report(set); }), "") << side;
+    }
+}
+
 }  // namespace stipple::testing::voronoi_test
