@@ -241,10 +241,41 @@ EmptyBall bounded_empty_ball(const PointSet& points, const Distances& distances,
     return Search(points, distances, search, run).find();
 }
 
+namespace {
+
+/// For each axis the box's low end if it can be subtracted from all coordinates without rounding
+/// (they differ from it by a factor of at most 2), else 0.
+std::vector<double> origin_of(const Box& box) {
+    std::vector<double> origin;
+    for (std::size_t k = 0; k < box.dimension(); ++k) {
+        const double low = box.low[k];
+        const double high = box.high[k];
+        origin.push_back((low > 0 && high <= 2 * low) || (high < 0 && low >= 2 * high) ? low : 0);
+    }
+    return origin;
+}
+
+}  // namespace
+
 EmptyBall largest_empty_ball(const PointSet& points, const Distances& distances,
                              const BallSearch& search, const RunContext& run) {
-    if (points.dimension() == 1) return widest_gap(points, distances, run);
-    if (points.dimension() == 2) return planar_empty_ball(points, distances, run);
+    const std::size_t d = points.dimension();
+    if (d == 1) return widest_gap(points, distances, run);
+    const std::vector<double> origin = origin_of(*distances.box);
+    if (std::ranges::any_of(origin, [](double x) { return x != 0; })) {
+        // Far from 0 the coordinates of centres are coarse; seen from the box's corner they are not.
+        PointSet seen(points.count(), d);
+        Distances near = distances;
+        for (std::size_t k = 0; k < d; ++k) {
+            for (std::size_t i = 0; i < seen.count(); ++i) seen[i][k] = points[i][k] - origin[k];
+            near.box->low[k] -= origin[k];
+            near.box->high[k] -= origin[k];
+        }
+        EmptyBall ball = largest_empty_ball(seen, near, search, run);
+        for (std::size_t k = 0; k < d; ++k) ball.center[k] += origin[k];
+        return ball;
+    }
+    if (d == 2) return planar_empty_ball(points, distances, run);
     return bounded_empty_ball(points, distances, search, run);
 }
 
@@ -337,7 +368,7 @@ EmptyBall planar_empty_ball(const PointSet& points, const Distances& distances,
     const auto n = static_cast<double>(points.count());
     const SortedPoints<2> sorted(
         GridFrame<2>(*distances.box, distances.torus,
-                     std::sqrt(2.0) * mean_distance(*distances.box, points.count()), n + 64),
+                     std::sqrt(2.0) * mean_distance(*distances.box, n), n + 64),
         points.flat(), run);
     EmptyBall best{-1, 0, {}};
     VoronoiCell cell;

@@ -16,9 +16,10 @@
 //         the number of empty balls nearly as large as the largest, and exponentially with d.
 //         Verifying that a Poisson-disk set is maximal takes 0.06 ms per point in 3-D, 0.5 ms in
 //         4-D, 2 ms in 5-D, 4 ms in 6-D.
-// Promise the radius is the distance, in float64, of the centre to its nearest point. For d <= 2 it
-//         is the maximum up to the rounding of the centre's coordinates. For d >= 3 the maximum is
-//         in [radius, upper]. The same for any number of threads.
+// Promise the radius is the distance, in float64, of the centre to its nearest point (in a box far
+//         from 0, of the centre before its coordinates are rounded). For d <= 2 it is the
+//         maximum up to the rounding of the centre's coordinates. For d >= 3 the maximum is in
+//         [radius, upper]. The same for any number of threads.
 #pragma once
 
 #include <cstdint>

@@ -272,4 +272,23 @@ TEST(Coverage, RefusesDomainsThatAreNoBox) {
               "| --domain 'box:bounds=[lo..hi,...]' names another box");
 }
 
+// Coordinates near 2^40 are multiples of 2^-12, which centres of balls need not be.
+TEST(Coverage, InABoxFarFromZeroIsThatOfTheBoxAtZero) {
+    for (const std::size_t d : {2U, 3U}) {
+        PointSet near = make("random", points(9, d));
+        for (double& x : near.flat()) x = std::floor(x * 4096) / 4096;
+        PointSet far = near;
+        for (double& x : far.flat()) x += 0x1p40;
+        far.domain =
+            box_domain({std::vector<double>(d, 0x1p40), std::vector<double>(d, 0x1p40 + 1)});
+        for (const char* metric : {"torus", "euclidean"}) {
+            const Settings settings = {{"metric", metric}, {"tolerance", "1e-10"}};
+            const Report one = analyze(unit, near, settings);
+            const Report other = analyze(unit, far, settings);
+            EXPECT_EQ(one.number("lower"), other.number("lower")) << d << metric;
+            EXPECT_EQ(one.number("upper"), other.number("upper")) << d << metric;
+        }
+    }
+}
+
 }  // namespace stipple::testing::coverage_test
