@@ -61,6 +61,7 @@
 #include "analyzers/distances/distances.hpp"
 #include "analyzers/distances/pair_counts.hpp"
 #include "core/error.hpp"
+#include "core/machine/int128.hpp"
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
 #include "core/text.hpp"
@@ -75,16 +76,14 @@ namespace {
 
 constexpr Param<double> max_radius{
     .name = "max-radius",
-    .low = 0,
-    .low_open = true,
+    .low = 1e-90,
     .optional = true,
     .unit = "(V / n)^(1/d)",
     .help = "Largest radius; default: 10, but at most an eighth of the shortest side"};
 
 constexpr Param<double> min_radius{
     .name = "min-radius",
-    .low = 0,
-    .low_open = true,
+    .low = 1e-90,
     .optional = true,
     .unit = "(V / n)^(1/d)",
     .help = "Smallest radius; default: 1, but at most half the largest"};
@@ -143,7 +142,8 @@ struct Plan {
 };
 
 Plan plan_for(const PointSet& points, const Box& box, const Values& options) {
-    Plan plan{.unit = mean_distance(box, points.count()), .width = 0, .halves = {}};
+    Plan plan{
+        .unit = mean_distance(box, static_cast<double>(points.count())), .width = 0, .halves = {}};
     const double side = shortest_side(box) / plan.unit;
     const double most = options.given(max_radius) ? options[max_radius] : std::min(10.0, side / 8);
     const double least = options.given(min_radius) ? options[min_radius] : std::min(1.0, most / 2);
@@ -243,9 +243,11 @@ struct Curves {
 void add_exponent(Report& report) {
     const auto& variance = report.curve("variance");
     const auto& mean = report.curve("mean");
+    const bool exact = report.find("variance_error") == nullptr;  // counted in windows, in integers
     std::vector<std::array<double, 2>> logs;
     for (std::size_t i = 0; i < variance.size(); ++i)
-        if (variance[i] > 1e-9 * mean[i] * mean[i])
+        if (variance[i] >
+            (exact ? 0 : std::max(report.curve("variance_error")[i], 1e-12 * mean[i] * mean[i])))
             logs.push_back({logarithm(report.curve("radius")[i]),
                             logarithm(report.curve("dispersion")[i] * mean[i])});
     if (logs.size() < 3) return drop(report, {"exponent"});
@@ -297,7 +299,7 @@ Curves by_pairs(const PointSet& points, const Plan& plan, const Distances& dista
 /// Sums over windows, for each radius; integers, so that the order of windows does not matter.
 struct WindowSums {
     std::vector<std::uint64_t> counts;
-    std::vector<std::uint64_t> squares;
+    std::vector<Int128> squares;
 };
 
 constexpr std::uint64_t windows_in_block = 256;
@@ -322,7 +324,7 @@ void add_window(const SortedPoints<D>& points, const Box& box, std::span<const d
     for (std::size_t k = 0; k < shells.size(); ++k) {
         inside += shells[k];
         sums.counts[k] += inside;
-        sums.squares[k] += inside * inside;
+        sums.squares[k] += static_cast<Int128>(inside) * static_cast<Int128>(inside);
     }
 }
 
@@ -332,15 +334,16 @@ WindowSums count_in_windows(const PointSet& points, const Box& box, std::span<co
     const SortedPoints<D> sorted(
         GridFrame<D>(box, false, radii.back() / 4, static_cast<double>(points.count())),
         points.flat(), run);
-    const std::vector<std::uint64_t> none(radii.size());
-    std::vector<WindowSums> parts(block_count(windows, windows_in_block), {none, none});
+    const WindowSums none{std::vector<std::uint64_t>(radii.size()),
+                          std::vector<Int128>(radii.size())};
+    std::vector<WindowSums> parts(block_count(windows, windows_in_block), none);
     for_each_block(run, windows, windows_in_block, [&](const Block& b) {
         for (std::uint64_t w = b.first; w < b.last; ++w) {
             run.check_stop();
             add_window(sorted, box, radii, w, parts[b.index]);
         }
     });
-    WindowSums all{none, none};
+    WindowSums all = none;
     for (const WindowSums& part : parts)
         for (std::size_t k = 0; k < radii.size(); ++k) {
             all.counts[k] += part.counts[k];
@@ -355,7 +358,7 @@ Curves by_windows(const PointSet& points, const Plan& plan, const Box& box, std:
     for (std::size_t i = 0; i < plan.halves.size(); ++i) radii.push_back(plan.radius(i));
     const auto n = static_cast<double>(points.count());
     const auto sums = static_cast<double>(block_count(windows, windows_in_block) * radii.size());
-    run.need_memory(n * (16 * static_cast<double>(points.dimension()) + 12) + 16 * sums,
+    run.need_memory(n * (16 * static_cast<double>(points.dimension()) + 12) + 24 * sums,
                     "the counts in windows");
     const WindowSums all = with_dimension<3>(points.dimension(), [&]<std::size_t D>() {
         return count_in_windows<D>(points, box, radii, windows, run);
@@ -365,8 +368,10 @@ Curves by_windows(const PointSet& points, const Plan& plan, const Box& box, std:
     Curves curves;
     for (std::size_t i = 0; i < radii.size(); ++i) {
         const double mean = static_cast<double>(all.counts[i]) / number;
-        const double spread = static_cast<double>(all.squares[i]) / number - mean * mean;
-        const double variance = std::max(0.0, spread) * number / (number - 1);
+        // At most 2^30 windows of 2^32 points: the products fit 128 bits.
+        const Int128 spread = all.squares[i] * static_cast<Int128>(windows) -
+                              static_cast<Int128>(all.counts[i]) * all.counts[i];
+        const double variance = static_cast<double>(spread) / number / (number - 1);
         add(curves, radii[i] / plan.unit, mean, variance, ball.volume(radii[i]) / volume_of(box));
     }
     return curves;

@@ -314,4 +314,21 @@ TEST(Hyperuniformity, RefusesWhatHasNoWindows) {
               "usage: --min-radius: 0.9999 is too close to the largest radius, 1, to fit a slope");
 }
 
+// Windows of 4e4 points whose numbers vary by less than 1: the squares' means cancel in float64, and
+// are not small enough to be rounding errors.
+TEST(Hyperuniformity, WindowsWithManyPointsCountExactly) {
+    constexpr std::size_t n = 100'000;
+    PointSet line = make("random", points(n, 1));
+    for (std::size_t i = 0; i < n; ++i)
+        line[i][0] = (static_cast<double>(i) + line[i][0]) / static_cast<double>(n);
+    const Report found = report(line, {{"metric", "euclidean"},
+                                       {"min-radius", "12000"},
+                                       {"max-radius", "24000"},
+                                       {"windows", "2000"},
+                                       {"radii", "4"}});
+    for (const double variance : found.curve("variance")) EXPECT_NEAR(variance, 1. / 3, 0.12);
+    ASSERT_NE(found.find("exponent"), nullptr);
+    EXPECT_NEAR(found.number("exponent"), 0, 0.6);
+}
+
 }  // namespace stipple::testing::hyperuniformity_test
