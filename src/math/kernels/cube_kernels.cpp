@@ -132,6 +132,16 @@ STIPPLE_WIDE void multiply_decay(const double* sums, std::size_t count, double* 
         products[j] = sums[j] < 708 ? products[j] * exponential(-sums[j]) : 0;
 }
 
+/// Multiplies by the decay so far where it is strong: over many axes the exponential of a whole sum
+/// would underflow, and the product of parabolas overflow.
+STIPPLE_WIDE void take_decay(double* sums, std::size_t count, double* products) {
+    for (std::size_t j = 0; j < count; ++j) {
+        const double taken = sums[j] > 128 ? sums[j] : 0;
+        products[j] = taken < 708 ? products[j] * exponential(-taken) : 0;
+        sums[j] -= taken;
+    }
+}
+
 class Matern final : public Kernel {
   public:
     Matern(std::size_t dimension, double bandwidth, unsigned order)
@@ -145,8 +155,10 @@ class Matern final : public Kernel {
         std::array<double, tile> sums;
         std::fill_n(sums.data(), count, 0.0);
         std::fill_n(values, count, 1.0);
-        for (std::size_t k = 0; k < dimension_; ++k)
+        for (std::size_t k = 0; k < dimension_; ++k) {
+            if (k % 64 == 0 && k > 0) take_decay(sums.data(), count, values);
             multiply_matern(x.axis(k) + first, y[k], c_, p_, count, sums.data(), values);
+        }
         multiply_decay(sums.data(), count, values);
     }
     double diagonal(const double*) const override { return 1; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -333,6 +334,32 @@ TEST(KernelDiscrepancy, RefusesWhatItCannotCompare) {
     const std::string& equal = equal_file.path();
     EXPECT_TRUE(refusal(points_of({{1, 1, 1}}), {{"kernel", "gaussian"}, {"target", equal}})
                     .starts_with("input: the median distance of the points"));
+}
+
+// K = ((1 + a + a^2 / 3) exp(-a))^d with a = 0.1: exp(-0.1 d) alone underflows, and the product of
+// the parabolas overflows.
+TEST(KernelDiscrepancy, MaternInThousandsOfDimensions) {
+    constexpr std::size_t d = 10'000;
+    PointSet set(2, d);
+    for (std::size_t k = 0; k < d; ++k) set[0][k] = 0.25, set[1][k] = 0.75;
+    const TemporaryFile origin(text_of(set));
+    PointSet one(1, d);
+    std::ranges::copy(set[0], one[0].begin());
+    // squared of {x} from {x, y}: (K(x, x) + K(y, y) + 2 K(x, y)) / 4 - (K(x, x) + K(x, y)) + K(x, x)
+    const double k = 2 * (0.5 - squared(one, {{"kernel", "matern"},
+                                              {"target", origin.path()},
+                                              {"bandwidth", format_number(5 * std::sqrt(5.0))}}));
+    EXPECT_NEAR(std::log(k), d * (std::log1p(0.1 + 0.01 / 3) - 0.1), 1e-9);
+}
+
+TEST(KernelDiscrepancy, SteinRefusesDistancesBeyondFloat64) {
+    const PointSet far = points_of({{1e200, 0.1}, {0, 0.2}, {3, 0.1}});
+    EXPECT_EQ(refusal(far, {{"kernel", "stein"}}),
+              "input: the points are too far apart for the kernel stein in float64, with "
+              "--bandwidth 1");
+    const PointSet near = points_of({{1e60, 0.1}, {0, 0.2}});
+    EXPECT_EQ(refusal(near, {{"kernel", "stein"}}), "");
+    EXPECT_NE(refusal(near, {{"kernel", "stein"}, {"bandwidth", "1e-100"}}), "");
 }
 
 }  // namespace stipple::testing::kernel_discrepancy_test
