@@ -22,13 +22,19 @@ inline DoubleDouble to_double_double(const Quad& x) {
     return {high, static_cast<double>(x - Quad(high))};
 }
 
+/// Ratio of the kind's kernel to the one in its record; 2 pi^2 for the diaphony, 1 for others.
+inline Quad scale_of(Kind kind) {
+    return kind == Kind::diaphony ? Quad("19.73920880217871723766898199975230227063")
+                                  : Quad(record_of(kind).scale);
+}
+
 struct AxisFactor {
     using Curve = std::array<Quad, 4>;  ///< coefficients of 1, x, x^2, |x - 1/2|
 
     AxisFactor(Kind kind, bool alone, double weight) {
         const AxisKernel& k = record_of(kind).kernel;
         const Quad one = alone ? 0 : 1;
-        const Quad unit = Quad(record_of(kind).scale) * weight / 48;
+        const Quad unit = scale_of(kind) * weight / 48;
         own = {one / 2 + unit * k.s00 / 2, unit * k.s01, unit * k.s02, unit * k.s03};
         for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = unit * k.mean[i];
         mean[0] += one;

@@ -75,7 +75,7 @@ class FactorForm {
         // A kernel that depends on the distance t is s00 + sigma t + ..., in units of 1/48.
         const AxisKernel& kernel = record_of(kind).kernel;
         const double steep = is_of_distance() ? -static_cast<double>(kernel.sigma) / 48 : 1;
-        const Quad curve = Quad(record_of(kind).scale * steep) * weight;
+        const Quad curve = scale_of(kind) * steep * weight;
         inverse_ = alone ? Quad(0) : Quad(1) / curve;
         scale_ = curve;
         if (kind == Kind::centered) scale_ *= curve;

@@ -887,4 +887,15 @@ TEST(L2Discrepancy, StopsAtOnceInManyDimensions) {
     EXPECT_EQ(error_of([&] { analyze("l2-discrepancy", set, {}, run); }), "cancelled: interrupted");
 }
 
+// One point has squared = (1 + pi^2 / 3)^d - 1. The constant 2 pi^2 in float64 would be off by more
+// than the error that is told.
+TEST(L2Discrepancy, DiaphonyInManyDimensionsIsWithinItsError) {
+    const long double factor =
+        1 + std::numbers::pi_v<long double> * std::numbers::pi_v<long double> / 3;
+    const PointSet one(1, 300);
+    const Report found = analyze("l2-discrepancy", one, {{"kind", "diaphony"}});
+    const long double exact = std::sqrt(std::pow(factor, 300.0L) - 1);
+    EXPECT_LE(std::abs(found.number("diaphony.value") - exact), found.number("diaphony.error"));
+}
+
 }  // namespace stipple::testing::l2_discrepancy_test
