@@ -15,7 +15,8 @@
 // Sets of more than 2^26 coordinates (or --exact-points) are not kept. Their points are counted in
 // equal cells of each axis (a power of two, at least 4096 and at most 2^26 / d), whose ends are
 // exact doubles. D is then the maximum over the ends of cells. The true value exceeds it by at most
-// `statistic_error`, which is not above the width of a cell.
+// `statistic_error`, which is not above the width of a cell; p_lower is that of the largest possible
+// D, so that the error makes no tail significant.
 //
 // Outcomes of a discrete distribution are moved to random positions in their cells of the cube,
 // which makes them uniform. The positions are the same in every run.
@@ -141,6 +142,8 @@ class Collector final : public SharedAccumulator {
             statistic.push_back(found.statistic);
             error.push_back(found.error);
             tails.push_back(kolmogorov_tails(n_, found.statistic, run));
+            if (found.error > 0)
+                tails.back().lower = kolmogorov_tails(n_, found.statistic + found.error, run).lower;
             p.push_back(tails.back().two_sided());
             upper.push_back(tails.back().upper);
             lower.push_back(tails.back().lower);
