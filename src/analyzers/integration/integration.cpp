@@ -156,21 +156,62 @@ Named named(const std::string& text) {
     }
 }
 
-/// Integral over the boxes of the support; nullopt without boxes, or above two dimensions.
-std::optional<Estimate> integral_over(const Support& support, const Domain& domain,
-                                      const RegionView& view, const Task& task) {
-    const std::size_t d = domain.dimension();
-    if (support.boxes.empty() || d > 2) return std::nullopt;
-    std::vector<double> seen(d);
+/// Integral of the task's function over boxes of one or two dimensions, where the density is above 0
+/// or anywhere.
+Estimate integral_over(const std::vector<Box>& boxes, bool anywhere, const Effort& effort,
+                       const Domain& domain, const RegionView& view, const Task& task) {
+    std::vector<double> seen(domain.dimension());
     const auto f = [&](std::span<const double> point) {
-        if (!(domain.density(point) > 0)) return 0.0;
+        if (!anywhere && !(domain.density(point) > 0)) return 0.0;
         view.see(task.region, point, seen);
         return task.value(seen);
     };
-    const Effort effort = d == 1 ? Effort{1e-12, 1000} : Effort{1e-7, 40};
     Estimate sum;
-    for (const Box& box : support.boxes) sum += integrate_box(f, box, effort);
+    for (const Box& box : boxes) sum += integrate_box(f, box, effort);
     return sum;
+}
+
+/// The parts of the box outside all of these boxes.
+std::vector<Box> gaps_of(const Box& whole, const std::vector<Box>& boxes) {
+    std::vector<Box> gaps{whole};
+    for (const Box& box : boxes) {
+        std::vector<Box> left;
+        for (Box gap : gaps) {
+            bool apart = false;
+            for (std::size_t k = 0; k < gap.dimension(); ++k)
+                apart = apart || box.high[k] <= gap.low[k] || box.low[k] >= gap.high[k];
+            for (std::size_t k = 0; !apart && k < gap.dimension(); ++k) {  // cuts off what is left
+                Box below = gap, above = gap;
+                below.high[k] = gap.low[k] = std::max(gap.low[k], box.low[k]);
+                above.low[k] = gap.high[k] = std::min(gap.high[k], box.high[k]);
+                for (const Box& part : {below, above})
+                    if (part.extent(k) > 0) left.push_back(part);
+            }
+            if (apart) left.push_back(gap);
+        }
+        gaps = std::move(left);
+    }
+    return gaps;
+}
+
+/// Integral over the support; nullopt if its boxes are unknown, above two dimensions, or if
+/// quadrature over the whole box does not give its integral `known`: it does not see peaks that
+/// are narrower than the distance of its nodes.
+std::optional<Estimate> integral_over(const Support& support, double known, const Domain& domain,
+                                      const RegionView& view, const Task& task) {
+    const std::size_t d = domain.dimension();
+    if (support.boxes.empty() || d > 2) return std::nullopt;
+    const std::vector<Effort> efforts =
+        d == 1 ? std::vector<Effort>{{1e-12, 1000}, {1e-12, 20'000, 4001}}
+               : std::vector<Effort>{{1e-7, 40}};
+    std::vector<Box> whole = gaps_of(domain.bounding_box(), support.boxes);
+    whole.insert(whole.end(), support.boxes.begin(), support.boxes.end());
+    for (const Effort& effort : efforts) {
+        const Estimate all = integral_over(whole, true, effort, domain, view, task);
+        if (std::abs(all.value - known) <= 10 * all.error + 1e-9 * std::abs(known))
+            return integral_over(support.boxes, false, effort, domain, view, task);
+    }
+    return std::nullopt;
 }
 
 Task task_of(const IntegrandKind& kind, const Values& values, const Domain& domain,
@@ -183,7 +224,8 @@ Task task_of(const IntegrandKind& kind, const Values& values, const Domain& doma
         task.exact = Estimate{function.exact * support.measure->value,
                               std::abs(function.exact) * support.measure->error};
     else
-        task.exact = integral_over(support, domain, view, task);
+        task.exact =
+            integral_over(support, function.exact * view.scale(kind.region), domain, view, task);
     return task;
 }
 
@@ -414,12 +456,23 @@ double variance_by_weights(const Tally& importance, const Tally& squares) {
     return off > 1e-13 * square ? off * n / (n - 1) : 0;  // smaller differences are due to rounding
 }
 
+/// @throws Error(input) if the square of a mean or a deviation leaves float64
+void require_square(double root, const std::string& name) {
+    if (root != 0 && !(root * root > 1e-290 && std::isfinite(root * root)))
+        fail_with_hint(ErrorKind::input, "multiply the integrand by a number, or use other units",
+                       "--compare: float64 cannot hold the square of {}, a mean or a deviation of "
+                       "{}",
+                       format_number(root), name);
+}
+
 Report comparison(const std::vector<Task>& tasks, const Sums& sums, bool weighed) {
     Report all;
     for (std::size_t k = 0; k < tasks.size(); ++k) {
         const Tally& importance = sums.weighted[k];
         const Tally& uniform = sums.uniform[k];
         const double mean = weighed ? importance.mean() : uniform.mean();
+        for (const double root : {importance.deviation(), weighed ? mean : uniform.deviation()})
+            require_square(root, tasks[k].name);
         const double variance =
             weighed ? variance_by_weights(importance, uniform) : uniform.variance();
         Report one;
@@ -513,6 +566,9 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
         report.add("density", column.empty() ? "warps" : column);
     for (std::size_t k = 0; k < tasks.size(); ++k) {
         const Tally& values = sums.weighted[k];
+        if (!std::isfinite(values.mean()))
+            fail(ErrorKind::input, "the sum of {} over the points is too large for float64",
+                 tasks[k].name);
         Report one;
         one.add("estimate", values.mean());
         if (const auto known = tasks[k].exact) {
@@ -528,21 +584,31 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return report;
 }
 
+/// Squares are taken in units of a power of two, so that none overflows, and not all underflow.
+double root_mean_square(const std::vector<double>& numbers) {
+    double largest = 0;
+    for (const double x : numbers) largest = std::max(largest, std::abs(x));
+    if (largest == 0) return 0;
+    const double unit = std::ldexp(1.0, std::ilogb(largest));
+    Tally squares;
+    for (const double x : numbers) squares.add(x / unit * (x / unit));
+    return std::sqrt(squares.mean()) * unit;
+}
+
 /// Adds the standard error, confidence interval and root mean square error over several sets.
 void replicate(Report& mean, const std::string& name, std::span<const Report> sets) {
-    Tally estimates, squares;
+    Tally estimates;
+    std::vector<double> errors;
     for (const Report& set : sets) {
         estimates.add(set.number(name + ".estimate"));
-        if (!set.find(name + ".error")) continue;
-        const double error = set.number(name + ".error");
-        squares.add(error * error);
+        if (set.find(name + ".error")) errors.push_back(set.number(name + ".error"));
     }
     const double spread = estimates.standard_error();
     const double reach = spread * student_quantile(0.025, estimates.count() - 1);
     const double middle = estimates.mean();
     mean.add("standard_error", spread);
     mean.add("interval_low", middle - reach).add("interval_high", middle + reach);
-    if (squares.count() > 0) mean.add("rms_error", std::sqrt(squares.mean()));
+    if (!errors.empty()) mean.add("rms_error", root_mean_square(errors));
 }
 
 /// Adds the root mean square error for a single set: the absolute value of its error.

@@ -527,4 +527,37 @@ TEST(Integration, WhatAMixtureCoversIsEstimatedWithoutAnExactValue) {
                 quarter * (16 * 0.25 + 16 / 9.0 * 0.75) - 4 * quarter, 0.2);
 }
 
+TEST(Integration, ErrorsOfTinyIntegrandsAreThoseOfOthers) {
+    const PointSet set = make("random", points(100, 2));
+    const auto error = [&](const char* formula) {
+        return measure("integration", "expression.standard_error", set, {{"expression", formula}});
+    };
+    EXPECT_NEAR(error("1e-200*x") / error("x"), 1e-200, 1e-214);
+    EXPECT_NEAR(error("1e200*x") / error("x") / 1e200, 1, 1e-14);
+    EXPECT_TRUE(error_of([&] {
+                    analyze("integration", set, {{"expression", "1e-200*x"}, {"compare", "true"}});
+                }).starts_with("input: --compare: float64 cannot hold the square of"));
+    EXPECT_EQ(error_of([&] {
+                  analyze("integration", set, {{"expression", "1.7e308"}});
+              }),
+              "input: the sum of expression over the points is too large for float64");
+}
+
+// Narrow peaks between the nodes of quadrature: in one dimension they are found, in two `exact` is
+// left out; it was 0.
+TEST(Integration, ExactOverASupportSeesNarrowPeaks) {
+    const Spec spec = parse_spec("table-1d:rows=[0,1 0.3,1 0.5,0 0.6,0 0.7,1 1,1]");
+    const Settings peak = {{"integrand", "genz-gaussian:difficulty=10000"}};
+    const Warp& table = find_warp(spec.name);
+    const auto analyzed = [&](std::size_t d, const Settings& settings) {
+        const auto warp = table.make(spec.values(table.options), d, {});
+        return analyze("integration", warped(*warp, make("sobol", points(1 << 16, d))), settings);
+    };
+    const Report line = analyzed(1, peak);
+    ASSERT_NE(line.find("genz-gaussian.exact"), nullptr);
+    EXPECT_NEAR(line.number("genz-gaussian.exact"), line.number("genz-gaussian.estimate"), 1e-7);
+    EXPECT_EQ(analyzed(2, peak).find("genz-gaussian.exact"), nullptr);
+    EXPECT_NE(analyzed(2, {{"integrand", "genz-gaussian"}}).find("genz-gaussian.exact"), nullptr);
+}
+
 }  // namespace stipple::testing::integration_test
