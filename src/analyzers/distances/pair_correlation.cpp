@@ -109,7 +109,7 @@ Plan plan_for(const PointSet& points, const Values& options) {
         fail(ErrorKind::usage, "--bandwidth: {} is more than the {} bins", plan.spread, plan.bins);
     const auto n = static_cast<double>(points.count());
     const Box& box = *plan.distances.box;
-    const double mean = mean_distance(box, points.count());
+    const double mean = mean_distance(box, static_cast<double>(points.count()));
     if (options[normalize]) plan.unit = mean;
     const double longest = longest_distance(box, plan.distances.torus);
     double reach = default_reach(plan.distances, mean);
@@ -121,12 +121,29 @@ Plan plan_for(const PointSet& points, const Values& options) {
                  format_number(options[max_distance]), format_number(longest / plan.unit));
     }
     plan.width = reach / static_cast<double>(plan.bins);
+    if (!(reach > 1e-90 * mean))
+        fail(ErrorKind::usage,
+             "--max-distance: {} is too small for the probability of a pair to fit float64; "
+             "expected at least {}",
+             format_number(options[max_distance]), format_number(1e-90 * mean / plan.unit));
     plan.pairs = n * (n - 1) / 2;
     return plan;
 }
 
-/// Probability that two independent points are nearer than x bin widths, for x at the edges of the
-/// bins and at the nodes of Gaussian quadrature inside them.
+/// Probabilities that two independent points are nearer than a distance, and farther; the latter
+/// only where it is needed: near the longest distance.
+struct Chance {
+    double nearer;
+    std::optional<double> farther;
+};
+
+/// Probability of distances between two, without cancellation at either end.
+double between(const Chance& a, const Chance& b) {
+    return a.farther && b.farther ? *a.farther - *b.farther : b.nearer - a.nearer;
+}
+
+/// Chances for distances of x bin widths, for x at the edges of the bins and at the nodes of Gaussian
+/// quadrature inside them.
 class Chances {
   public:
     static constexpr std::array<double, 4> nodes = {0.069431844202973714, 0.33000947820757187,
@@ -137,7 +154,10 @@ class Chances {
     Chances(const Plan& plan, const RunContext& run) {
         const std::size_t last = plan.bins + plan.spread;
         const auto below = [&](double bins) {
-            return pair_probability(*plan.distances.box, plan.distances.torus, bins * plan.width);
+            const auto& [torus, box, norm] = plan.distances;
+            const double r = bins * plan.width;
+            return Chance{pair_probability(*box, torus, r),
+                          pair_probability_beyond(*box, torus, r)};
         };
         for (std::size_t i = 0; i <= last; ++i) {
             if (i % 64 == 0) run.tick(i, last);
@@ -147,14 +167,14 @@ class Chances {
         }
         run.tick(last, last);
     }
-    [[nodiscard]] double below(std::size_t bins) const { return rims_[bins]; }
-    [[nodiscard]] double below_node(std::size_t bin, std::size_t g) const {
+    [[nodiscard]] const Chance& below(std::size_t bins) const { return rims_[bins]; }
+    [[nodiscard]] const Chance& below_node(std::size_t bin, std::size_t g) const {
         return inside_[bin * nodes.size() + g];
     }
 
   private:
-    std::vector<double> rims_;
-    std::vector<double> inside_;
+    std::vector<Chance> rims_;
+    std::vector<Chance> inside_;
 };
 
 struct Curves {
@@ -176,7 +196,7 @@ Curves histogram(const Plan& plan, const PairCounts& counts, const RunContext& r
     Curves curves;
     for (std::size_t i = 0; i < plan.bins; ++i) {
         const double middle = (static_cast<double>(i) + 0.5) * plan.width / plan.unit;
-        const double chance = chances.below(i + 1) - chances.below(i);
+        const double chance = between(chances.below(i), chances.below(i + 1));
         curves.add(middle, static_cast<double>(counts.pairs[i]), chance, chance, plan.pairs);
     }
     return curves;
@@ -208,7 +228,8 @@ double parabola_mean(const Chances& chances, std::size_t at, std::size_t spread,
             const double bins = static_cast<double>(i) - static_cast<double>(at);
             const double u = (bins + Chances::nodes[g]) / h;
             const double slope = 2 * u / h * (power == 1 ? 1 : 2 * (1 - u * u));
-            sum += Chances::weights[g] * slope * (chances.below_node(i, g) - chances.below(first));
+            sum += Chances::weights[g] * slope *
+                   between(chances.below(first), chances.below_node(i, g));
         }
     return sum;
 }
@@ -252,7 +273,8 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     if (plan.spread == 0) results.add("pairs", std::move(pairs));
     results.add("max_distance", static_cast<double>(plan.bins) * plan.width / plan.unit, unit);
     results.add("bin_width", plan.width / plan.unit, unit);
-    results.add("mean_distance", mean_distance(*plan.distances.box, points.count()));
+    results.add("mean_distance",
+                mean_distance(*plan.distances.box, static_cast<double>(points.count())));
     results.add("kernel", options[kernel]);
     results.add("metric", plan.distances.name());
     return results;

@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <span>
 
 #include "core/machine/wide.hpp"
 #include "core/parallel.hpp"
+#include "math/arithmetic/double_double.hpp"
 #include "math/functions/radians.hpp"
 #include "math/functions/roots.hpp"
 #include "math/neighbors/point_grid.hpp"
@@ -109,7 +113,7 @@ class PairCounter {
   private:
     /// Side of grid cells: a fifth of `reach`, but with at least 4 points per cell on average.
     static double cell_side(const Box& box, std::size_t count, double reach) {
-        return std::max(nth_root(4, D) * mean_distance(box, count), reach / 5);
+        return std::max(nth_root(4, D) * mean_distance(box, static_cast<double>(count)), reach / 5);
     }
 
     /// Counts the pairs of point s with the points from, ..., from + size - 1.
@@ -176,21 +180,26 @@ double squared(double x) { return x * x; }
 /// that the root is at most b.reach().
 double under_arc(const Axis& a, const Axis& b, double r, double low, double high) {
     const auto root = [&](double x) { return std::sqrt(std::max(0.0, (r - x) * (r + x))); };
-    const auto arc = [&](double x) {  // antiderivative of sqrt(r^2 - x^2) (1 - slope x / L)
-        const double s = root(x);
-        const double plain = (x * s + r * r * arc_sine(std::min(1.0, x / r))) / 2;
-        const double slanted = -s * s * s / 3;
-        return plain - a.slope / a.side * slanted;
+    const auto arc = [&](double x) {  // antiderivative of sqrt(r^2 - x^2)
+        return (x * root(x) + r * r * arc_sine(std::min(1.0, x / r))) / 2;
     };
+    // Integral of x sqrt(r^2 - x^2): a difference of cubes of roots, which cancel if a is short.
+    const double one = root(low);
+    const double other = root(high);
+    const double slanted = one + other > 0
+                               ? (high - low) * (high + low) *
+                                     (one * one + one * other + other * other) / (3 * (one + other))
+                               : 0;
     const auto parabola = [&](double x) {  // antiderivative of (r^2 - x^2) (1 - slope x / L)
         return r * r * x - x * x * x / 3 - a.slope / a.side * squared(x) * (r * r / 2 - x * x / 4);
     };
-    const double roots = arc(high) - arc(low);
+    const double roots = arc(high) - arc(low) - a.slope / a.side * slanted;
     const double squares = b.slope > 0 ? parabola(high) - parabola(low) : 0;
     return 2 / a.side * (2 * roots / b.side - squares / squared(b.side));
 }
 
 double within_disk(const Axis& a, const Axis& b, double r) {
+    if (a.side > b.side) return within_disk(b, a, r);  // along the longer axis terms would cancel
     const double high = std::min(r, a.reach());
     const double flat = r > b.reach() ? std::sqrt((r - b.reach()) * (r + b.reach())) : 0;
     if (flat >= high) return a.within(high) * b.within(b.reach());
@@ -224,15 +233,66 @@ double within_ball(const Axis& a, const Axis& b, const Axis& c, double r) {
     return sum;
 }
 
+/// The e with e (2 reach - e) = square, at most `reach`.
+double depth_of(double square, double reach) {
+    const double rest = reach * reach - square;
+    return rest > 0 ? square / (reach + std::sqrt(rest)) : reach;
+}
+
+/// Probability of displacements x along the axes, the longest first, with sum x^2 > sum reach()^2 -
+/// square: near the corner of the reaches. In terms of e = reach() - x nothing cancels.
+double in_corner(std::span<const Axis> axes, double square) {
+    if (square <= 0) return 0;
+    const Axis& a = axes.front();
+    const double reach = a.reach();
+    const double end = depth_of(square, reach);
+    if (axes.size() == 1) return (a.slope > 0 ? end / a.side : 2) * end / a.side;
+    const auto rest = axes.subspan(1);
+    std::vector<double> cuts{0, end};  // between them the integrand is smooth, but for square roots
+    double all = 0;
+    for (const Axis& axis : rest) all += squared(axis.reach());
+    for (const double rim : {squared(rest.front().reach()), squared(rest.back().reach()), all})
+        if (square > rim) cuts.push_back(std::min(end, depth_of(square - rim, reach)));
+    std::ranges::sort(cuts);
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+        const double width = cuts[i + 1] - cuts[i];
+        const auto part = [&](double t) {
+            const double e = cuts[i] + width * (t * t * (3 - 2 * t));
+            const double density = a.slope > 0 ? e / a.side : 1;
+            return t * (1 - t) * density * in_corner(rest, square - e * (2 * reach - e));
+        };
+        using Rule = boost::math::quadrature::gauss<double, 30>;
+        if (width > 0) sum += 6 * width * Rule::integrate(part, 0.0, 1.0);
+    }
+    return 2 / a.side * sum;
+}
+
+std::vector<Axis> axes_of(const Box& box, bool torus) {
+    std::vector<Axis> axes;
+    for (std::size_t k = 0; k < box.dimension(); ++k)
+        axes.push_back({box.extent(k), torus ? 0.0 : 1.0});
+    return axes;
+}
+
 }  // namespace
 
+std::optional<double> pair_probability_beyond(const Box& box, bool torus, double r) {
+    std::vector<Axis> axes = axes_of(box, torus);
+    std::ranges::sort(axes, std::greater(), &Axis::side);
+    DoubleDouble square = exact_product(-r, r);
+    for (const Axis& axis : axes) square = square + exact_product(axis.reach(), axis.reach());
+    if (axes.size() == 1 || square.high > squared(axes[0].reach()) / 4) return std::nullopt;
+    return in_corner(axes, square.high);
+}
+
 double pair_probability(const Box& box, bool torus, double r) {
-    const auto axis = [&](std::size_t k) { return Axis{box.extent(k), torus ? 0.0 : 1.0}; };
     if (r <= 0) return 0;
     if (r >= longest_distance(box, torus)) return 1;
-    if (box.dimension() == 1) return axis(0).within(r);
-    if (box.dimension() == 2) return within_disk(axis(0), axis(1), r);
-    return within_ball(axis(0), axis(1), axis(2), r);
+    const std::vector<Axis> axes = axes_of(box, torus);
+    if (axes.size() == 1) return axes[0].within(r);
+    if (axes.size() == 2) return within_disk(axes[0], axes[1], r);
+    return within_ball(axes[0], axes[1], axes[2], r);
 }
 
 double longest_distance(const Box& box, bool torus) {

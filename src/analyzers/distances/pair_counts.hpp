@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "analyzers/distances/distances.hpp"
@@ -45,6 +46,10 @@ PairCounts count_pairs(const PointSet& points, const Distances& distances, doubl
 //         Applications", 3rd ed., Wiley 2013, section 4.7 (edge correction by the set covariance).
 
 double pair_probability(const Box& box, bool torus, double r);
+
+/// 1 - p(r) within 1e-9 of its size (1e-12 if all sides are equal), for r near the longest distance,
+/// where 1 minus the rounded p(r) has lost digits; nullopt for smaller r, and for d = 1.
+std::optional<double> pair_probability_beyond(const Box& box, bool torus, double r);
 
 /// Largest possible distance of two points of the box.
 double longest_distance(const Box& box, bool torus);

@@ -16,6 +16,7 @@ namespace stipple::testing::pair_correlation_test {
 
 using analyzers::longest_distance;
 using analyzers::pair_probability;
+using analyzers::pair_probability_beyond;
 
 namespace {
 
@@ -297,6 +298,59 @@ TEST(PairCorrelation, WarnsOfPointsThatAreAllEqual) {
     EXPECT_TRUE(warnings(points_of({{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.25}})).empty());
     EXPECT_EQ(warnings(points_of({{0.1, 0.1}, {0.6, 0.6}})).at(0).substr(0, 24),
               "no two points are within");
+}
+
+TEST(PairCorrelation, ProbabilityOfFarPairsKeepsItsDigits) {
+    for (const bool torus : {true, false})
+        for (const Box& box : {Box{{0, 0}, {1, 1}}, Box{{0, 0}, {3, 0.01}},
+                               Box{{0, 0, 0}, {1, 1, 1}}, Box{{0, 0}, {1, 1e-6}},
+                               Box{{0, 0, 0}, {1, 0.1, 0.001}}, Box{{0, 0, 0}, {0.1, 1, 1}}}) {
+            const double longest = longest_distance(box, torus);
+            for (const double less : {0.08, 0.05, 0.02, 0.01, 0.001}) {
+                const double r = longest * (1 - less);
+                const auto beyond = pair_probability_beyond(box, torus, r);
+                if (!beyond) continue;
+                EXPECT_NEAR(*beyond, 1 - pair_probability(box, torus, r), 2e-12 + 1e-9 * *beyond)
+                    << less;
+            }
+            EXPECT_EQ(pair_probability_beyond(box, torus, longest * 0.5), std::nullopt);
+            EXPECT_EQ(pair_probability_beyond(box, torus, longest * 1.001), 0);
+        }
+    // Of the cube, to first order in e = sqrt 3 (longest - r): 8 e^6 / 6!; of its torus 8 e^3 / 3!.
+    const Box cube{{0, 0, 0}, {1, 1, 1}};
+    const double reach = 1e-5 * std::sqrt(3.0);
+    EXPECT_NEAR(*pair_probability_beyond(cube, false, std::sqrt(3.0) - 1e-5) /
+                    (8 * std::pow(reach, 6) / 720),
+                1, 1e-4);
+    EXPECT_NEAR(
+        *pair_probability_beyond(cube, true, std::sqrt(0.75) - 1e-5) / (8 * std::pow(reach, 3) / 6),
+        1, 1e-4);
+}
+
+// In the last bin of 2000 the chance of a pair is 1.3e-19, which 1 - p(r) rounded to 0.
+TEST(PairCorrelation, FarPairsHaveTheirDensity) {
+    const PointSet set = points_of({{0, 0, 0}, {1, 1, 0.9997}, {0.5, 0.5, 0.5}});
+    for (const char* kernel : {"histogram", "epanechnikov"}) {
+        const Report found = report(set, {{"metric", "euclidean"},
+                                          {"max-distance", "1.7320508"},
+                                          {"bins", "2000"},
+                                          {"kernel", kernel}});
+        const double reach = std::sqrt(3.0) * 1.7320508 / 2000;
+        const double chance = 8 * std::pow(reach, 6) / 720;
+        const double density = found.curve("density")[1999];
+        EXPECT_GT(density, 1e-6 / 3 / chance) << kernel;
+        EXPECT_LT(density, 10 / 3. / chance) << kernel;
+        const bool plain = std::string(kernel) == "histogram";
+        EXPECT_NEAR(density * 3 * chance, 1, plain ? 0.01 : 100);
+    }
+}
+
+TEST(PairCorrelation, RefusesDistancesWithoutProbability) {
+    const PointSet set = points_of({{0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}, {0.1, 0.2, 0.3}});
+    EXPECT_TRUE(error_of([&] {
+                    report(set, {{"max-distance", "1e-120"}});
+                }).starts_with("usage: --max-distance: 1e-120 is too small"));
+    EXPECT_GT(report(set, {{"max-distance", "1e-80"}}).curve("density")[0], 1e200);
 }
 
 }  // namespace stipple::testing::pair_correlation_test
