@@ -44,8 +44,7 @@ namespace stipple::analyzers::differential {
 namespace {
 
 constexpr Param<double> max_distance{.name = "max-distance",
-                                     .low = 0,
-                                     .low_open = true,
+                                     .low = 1e-90,
                                      .optional = true,
                                      .unit = "sqrt(V / n)",
                                      .help =
@@ -86,7 +85,7 @@ Plan plan_for(const PointSet& points, const Values& options) {
              "--pixels: {} is even; expected an odd number, so that one pixel is in the middle",
              plan.pixels);
     const Box& box = *plan.distances.box;
-    plan.unit = mean_distance(box, points.count());
+    plan.unit = mean_distance(box, static_cast<double>(points.count()));
     const double half = shortest_side(box) / 2;
     if (!options.given(max_distance)) {
         plan.reach = std::min(5 * plan.unit, half);

@@ -33,7 +33,12 @@ Norm norm_of(const std::string& metric) {
     return metric.ends_with("chebyshev") ? Norm::chebyshev : Norm::euclidean;
 }
 
-/// @throws Error(input) if squared distances within the box overflow float64
+/// Squares below this have lost digits.
+constexpr double least_square = 0x1p-960;
+
+constexpr const char* scale_hint = "divide all coordinates by the same number";
+
+/// @throws Error(input) if squared distances within the box overflow float64, or all underflow
 void require_squares(const Box& box, Norm norm, const char* too_wide) {
     double sum = 0;
     double squares = 0;
@@ -46,12 +51,48 @@ void require_squares(const Box& box, Norm norm, const char* too_wide) {
     if (!std::isfinite(norm == Norm::manhattan ? sum * sum : squares))
         fail(ErrorKind::input, "{} for squared distances in float64: x{} from {} to {}", too_wide,
              widest + 1, format_number(box.low[widest]), format_number(box.high[widest]));
+    const double side = box.extent(widest);
+    if (side > 0 && side * side < least_square)
+        fail_with_hint(ErrorKind::input, scale_hint,
+                       "the box is too narrow for squared distances in float64: x{} from {} to {}",
+                       widest + 1, format_number(box.low[widest]), format_number(box.high[widest]));
+}
+
+/// @throws Error(input) for a side whose fourth power, or the product of several, may leave float64
+void require_powers(const Box& box) {
+    for (std::size_t k = 0; k < box.dimension(); ++k)
+        if (!(box.extent(k) > 1e-70 && box.extent(k) < 1e70))
+            fail_with_hint(
+                ErrorKind::input, scale_hint,
+                "the box is too {} for powers of distances in float64: x{} from {} to {}",
+                box.extent(k) < 1 ? "narrow" : "wide", k + 1, format_number(box.low[k]),
+                format_number(box.high[k]));
+}
+
+/// @throws Error(input) if the squared distance of two different points underflows; coordinates so
+/// close to each other are close to 0
+void require_apart(const PointSet& points, Norm norm) {
+    constexpr double small = 0x1p-427;
+    const auto is_small = [](double x) { return x != 0 && std::abs(x) < small; };
+    if (std::ranges::none_of(points.flat(), is_small)) return;
+    const auto neighbors = KdTree(points.flat(), points.dimension(), {}, {}, norm).all_nearest({});
+    for (std::size_t i = 0; i < points.count(); ++i) {
+        const auto [squared, j] = neighbors[i];
+        if (squared >= least_square || std::ranges::equal(points[i], points[j])) continue;
+        std::size_t k = 0;
+        while (points[i][k] == points[j][k]) ++k;
+        fail_with_hint(ErrorKind::input, scale_hint,
+                       "points {} and {} are too close for squared distances in float64: x{} is {} "
+                       "and {}",
+                       i, j, k + 1, format_number(points[i][k]), format_number(points[j][k]));
+    }
 }
 
 void require_squares(const PointSet& points, Norm norm) {
     require_finite(points);
     require_squares(bounding_box(points.flat(), points.dimension()), norm,
                     "the points are too far apart");
+    require_apart(points, norm);
 }
 
 /// @throws Error(input) for points outside their domain, or with coordinates that are not finite
@@ -91,6 +132,7 @@ Distances distances_of(const PointSet& points, const std::string& asked) {
     const Outside outside = outside_of(points);
     if (outside.count == 0) {
         require_squares(*distances.box, distances.norm, "the box is too wide");
+        require_apart(points, distances.norm);
         return distances;
     }
     if (distances.torus)
@@ -115,6 +157,8 @@ Distances distances_in_box(const PointSet& points, const std::string& asked, con
     if (outside.count > 0)
         refuse_places(outside, points, "--domain 'box:bounds=[lo..hi,...]' names another box");
     require_squares(*box, Norm::euclidean, "the box is too wide");
+    require_powers(*box);
+    require_apart(points, Norm::euclidean);
     return {.torus = asked != "euclidean", .box = box};
 }
 
@@ -124,9 +168,13 @@ double shortest_side(const Box& box) {
     return shortest;
 }
 
-double mean_distance(const Box& box, std::size_t n) {
-    return real_power(volume_of(box) / static_cast<double>(n),
-                      1 / static_cast<double>(box.dimension()));
+double mean_distance(const Box& box, double n) {
+    const double share = 1 / static_cast<double>(box.dimension());
+    const double volume = volume_of(box);
+    if (volume > 1e-280 && volume < 1e280) return real_power(volume / n, share);
+    double distance = 1 / real_power(n, share);
+    for (std::size_t k = 0; k < box.dimension(); ++k) distance *= real_power(box.extent(k), share);
+    return distance;
 }
 
 bool all_equal(const PointSet& points) {

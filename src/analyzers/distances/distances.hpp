@@ -48,7 +48,7 @@ struct Distances {
 /// Resolves `asked` (the name of a metric, or empty) for the points.
 /// @throws Error(usage) for a torus of a domain that is not a box
 /// @throws Error(input) for points outside the domain, unless straight distances are requested, and
-///         for points (or a box) whose squared distances overflow float64
+///         for points (or a box) whose squared distances overflow or underflow float64
 Distances distances_of(const PointSet& points, const std::string& asked);
 
 /// Like distances_of(), for analyzers that need a box. @throws Error(input) also if no box is known
@@ -57,7 +57,7 @@ Distances distances_in_box(const PointSet& points, const std::string& asked, con
 double shortest_side(const Box& box);
 
 /// Mean distance (V / n)^(1/d) of n points in the box.
-double mean_distance(const Box& box, std::size_t n);
+double mean_distance(const Box& box, double n);
 
 bool all_equal(const PointSet& points);
 

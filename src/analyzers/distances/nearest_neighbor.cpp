@@ -49,9 +49,7 @@ constexpr std::array<double, 8> packing = {4, 12, 32, 64, 128, 192, 256, 256};
 
 /// Smallest distance of the densest known packing of n points in the box.
 double packing_distance(const Box& box, double n) {
-    const std::size_t d = box.dimension();
-    return 2 *
-           real_power(volume_of(box) / (n * std::sqrt(packing[d - 1])), 1 / static_cast<double>(d));
+    return 2 * mean_distance(box, n * std::sqrt(packing[box.dimension() - 1]));
 }
 
 /// Smallest distance of two points or, on the torus, of a point and its copy.

@@ -279,4 +279,29 @@ TEST(NearestNeighbor, AMeanOverSetsHasNoPair) {
     EXPECT_EQ(mean.find("pair"), nullptr);
 }
 
+TEST(NearestNeighbor, RefusesSquaresThatUnderflow) {
+    const PointSet near = points_of({{0.5, 0.5}, {0.25, 1e-200}, {0.25, 3e-200}});
+    for (const char* analyzer : {"nearest-neighbor", "spanning-tree", "coverage", "poisson-disk"})
+        EXPECT_EQ(error_of([&] { analyze(analyzer, near); }),
+                  "input: points 1 and 2 are too close for squared distances in float64: x2 is "
+                  "1e-200 and 3e-200 | divide all coordinates by the same number")
+            << analyzer;
+    const PointSet apart = points_of({{0.5, 0.5}, {0.25, 1e-200}, {0.75, 1e-200}, {0.75, 1e-200}});
+    EXPECT_EQ(measure(unit, "duplicates", apart), 2);
+    PointSet narrow = points_of({{1e-170}, {2e-170}});
+    narrow.domain = box_domain({{0}, {3e-170}});
+    EXPECT_TRUE(error_of([&] {
+                    analyze(unit, narrow);
+                }).starts_with("input: the box is too narrow for squared distances in float64"));
+}
+
+// The product of the sides underflows, its root does not.
+TEST(NearestNeighbor, RelativeRadiusInSmallBoxes) {
+    PointSet small = make("random", points(20, 8));
+    const double radius = measure(unit, "relative_radius", small);
+    scale_into({std::vector<double>(8, 0), std::vector<double>(8, 0x1p-150)}, small.flat());
+    small.domain = box_domain({std::vector<double>(8, 0), std::vector<double>(8, 0x1p-150)});
+    EXPECT_NEAR(measure(unit, "relative_radius", small), radius, 1e-12);
+}
+
 }  // namespace stipple::testing::nearest_neighbor_test
