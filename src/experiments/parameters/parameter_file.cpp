@@ -279,9 +279,10 @@ class ParameterReader {
         std::vector<double> values;
         std::set<std::string> seen;
         for (const Place& level : levels) {
-            const std::string text = json_text(level.value());
+            const bool number = level.value().is_number();
+            const auto text = number ? format_number(level.number()) : json_text(level.value());
             if (!seen.insert(text).second) level.refuse(fmt::format("{} is given twice", text));
-            if (level.value().is_number() && parameter.levels.empty()) {
+            if (number && parameter.levels.empty()) {
                 values.push_back(level.number());
                 continue;
             }
@@ -328,7 +329,9 @@ class ParameterReader {
         }
         double sum = 0;
         for (const double x : p) sum += x;
-        const bool asked = place_.has("normalize") && place_.at("normalize").value() == true;
+        const auto given = place_.find("normalize");
+        if (given && !given->value().is_boolean()) given->refuse("expected true or false");
+        const bool asked = given && given->value() == true;
         if (!(sum > 0)) place_.at("probabilities").refuse("all of them are 0");
         if (std::abs(sum - 1) > 1e-12 && !ratios && !asked)
             place_.at("probabilities")
