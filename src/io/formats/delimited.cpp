@@ -372,8 +372,9 @@ std::string without_quoted(std::string_view line) {
     for (std::size_t i = 0; i < line.size(); ++i) {
         const bool field_starts =
             i == 0 || std::string_view(",; \t").find(line[i - 1]) != line.npos;
-        const std::size_t close = line.find('"', i + 1);
-        if (line[i] == '"' && field_starts && close != line.npos)
+        const std::size_t close =
+            line[i] == '"' && field_starts ? line.find('"', i + 1) : line.npos;
+        if (close != line.npos)
             i = close;
         else
             bare += line[i];
