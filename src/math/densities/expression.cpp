@@ -288,11 +288,11 @@ double value_of(std::span<const FormulaStep> all, std::size_t first, std::size_t
         if (step.kind == FormulaStep::number || step.kind == FormulaStep::coordinate) {
             *top++ = value;
             value = step.kind == FormulaStep::number ? step.value : point[step.index];
-        } else if (step.kind == FormulaStep::plus) {
+        } else if (step.kind == FormulaStep::added) {
             value = *--top + value;
-        } else if (step.kind == FormulaStep::minus) {
+        } else if (step.kind == FormulaStep::subtracted) {
             value = *--top - value;
-        } else if (step.kind == FormulaStep::times) {
+        } else if (step.kind == FormulaStep::multiplied) {
             value = *--top * value;
         } else if (step.kind == FormulaStep::operation) {
             value = step.applied->value(step.applied->arguments == 1 ? value : *--top, value);

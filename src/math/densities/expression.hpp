@@ -54,9 +54,9 @@ struct FormulaStep {
         number,
         coordinate,
         operation,
-        plus,  ///< plus, minus, times: operations that single points compute without a call
-        minus,
-        times,
+        added,  ///< added, subtracted, multiplied: computed without a call at single points
+        subtracted,
+        multiplied,
         when,       ///< pops a condition; if it is 0, continues after step `index`, an `otherwise`
         otherwise,  ///< continues after step `index`, a `chosen`
         chosen      ///< end of c ? a : b

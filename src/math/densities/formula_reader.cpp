@@ -259,7 +259,7 @@ class Reader {
 
     void read_sign(std::string_view rest) {
         token_ = Token::sign;
-        for (const std::size_t size : {2, 1}) {
+        for (const std::size_t size : {2U, 1U}) {
             end_ = begin_ + size;
             operation_ = find_operation(token(), false);
             if (operation_) return;
