@@ -557,7 +557,8 @@ TEST(Generate, StreamsInLittleMemory) {
     const Sandbox box;
     for (const char* words : {"random -n 2e7 -f bin", "lloyd --iterations 0 -n 400 -m 9000 -f npy",
                               "lloyd --iterations 0 -n 400 -m 9000 -f json",
-                              "lloyd --iterations 0 -n 400 -m 9000 -f csv --meta"}) {
+                              "lloyd --iterations 0 -n 400 -m 9000 -f csv --meta",
+                              "optimized -n 600 -d 3 --effort 1e-4 --threads 1 -f npy"}) {
         const Outcome outcome =
             box.shell(std::string("python3 -c 'import resource, subprocess, sys\n"
                                   "p = subprocess.run([\"stipple\", \"generate\", *sys.argv[1:]],"

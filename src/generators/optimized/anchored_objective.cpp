@@ -11,6 +11,7 @@
 // the product of w_j over the axes on which it does not end at 1. If w_j > 1, a box that ends at 1
 // gets the weight w_j, too, which is that of the boxes that end just below 1.
 #include <algorithm>
+#include <functional>
 #include <vector>
 
 #include "core/machine/wide.hpp"
@@ -28,6 +29,11 @@ struct Hit {
     float value;
     bool open;
 };
+
+/// Number of boxes with the largest values that count. Others matter little in the soft maximum, but
+/// the first look, which guesses the discrepancy too small, finds very many.
+constexpr std::size_t most_hits = std::size_t{1} << 19;
+constexpr std::size_t few_rows = 1024;  ///< rows between two checks for a stop
 
 /// Counts of points in rows, one row per value of the second to last coordinate. For the boxes of a
 /// row, `reaches` is the volume per unit of the last coordinate and `shares` is 1/n, both times the
@@ -97,6 +103,7 @@ class AnchoredObjective final : public Objective {
         double most = 0;
         for (double least = last_ * (1 - reach / sharpness); most == 0; least *= 0.8) {
             look(static_cast<float>(std::max(least, 0.0)), run);
+            thin(parts_);
             for (const Part& part : parts_)
                 for (const Hit& hit : part.hits)
                     most = std::max(most, static_cast<double>(hit.value));
@@ -129,6 +136,21 @@ class AnchoredObjective final : public Objective {
     /// Weight of an axis for a box that ends at the coordinate of rank `place`.
     [[nodiscard]] float weight(std::size_t axis, std::size_t place) const {
         return place < n_ ? weights_[axis] : std::max(1.0F, weights_[axis]);
+    }
+
+    /// Leaves the hits with the `most_hits` largest values; of equal ones, the first.
+    static void thin(std::span<Part> parts) {
+        std::vector<float> values;
+        for (const Part& part : parts)
+            for (const Hit& hit : part.hits) values.push_back(hit.value);
+        if (values.size() <= most_hits) return;
+        const auto last = values.begin() + (most_hits - 1);
+        std::ranges::nth_element(values, last, std::greater());
+        auto equal = std::count(values.begin(), last + 1, *last);
+        for (Part& part : parts)
+            std::erase_if(part.hits, [&](const Hit& hit) {
+                return hit.value < *last || (hit.value == *last && equal-- <= 0);
+            });
     }
 
     void sort_axes(std::span<const double> rows) {
@@ -203,15 +225,15 @@ class AnchoredObjective final : public Objective {
                 part.reaches[b] *= times;
                 part.shares[b] *= times;
             }
-            constexpr std::size_t few = 1024;  // rows between two checks for a stop
-            for (std::size_t row = 0; row <= n_; row += few) {
+            for (std::size_t row = 0; row <= n_; row += few_rows) {
                 run.check_stop();
                 part.places.clear();
                 find_above({from + row * stride_, stride_, &part.reaches[row], &part.shares[row],
-                            std::min(few, n_ + 1 - row)},
+                            std::min(few_rows, n_ + 1 - row)},
                            values_[2].data(), least, first, last, part.places);
                 for (const auto& [k, c] : part.places) {
                     const std::size_t b = row + k;
+                    if (part.hits.size() == 2 * most_hits) thin({&part, 1});
                     part.hits.push_back(
                         {{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), c},
                          values_[2][c] * part.reaches[b] - from[b * stride_ + c] * part.shares[b],
@@ -262,6 +284,13 @@ class AnchoredObjective final : public Objective {
 };
 
 }  // namespace
+
+double anchored_memory(std::size_t count, std::size_t dimension) {
+    const auto n = static_cast<double>(count + 32);
+    const double boxes = 2 * n * n * (dimension == 3 ? n : 1);
+    return 4 * n * n + sizeof(Place) * n * std::min(n, static_cast<double>(few_rows)) +
+           (sizeof(Hit) + sizeof(float)) * std::min(boxes, 2.0 * most_hits);
+}
 
 std::unique_ptr<Objective> anchored_objective(const std::vector<double>& weights, std::size_t count,
                                               std::size_t dimension) {

@@ -66,6 +66,9 @@ std::vector<double> in_even_order(const std::vector<double>& rows, std::size_t d
 std::unique_ptr<Objective> anchored_objective(const std::vector<double>& weights, std::size_t count,
                                               std::size_t dimension);
 
+/// Bytes that it needs per thread: counts of points in a plane of boxes, and the worst boxes.
+double anchored_memory(std::size_t count, std::size_t dimension);
+
 struct Bounds {
     double lower;
     double upper;

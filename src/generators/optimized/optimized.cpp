@@ -434,15 +434,14 @@ std::vector<double> known_rows(const Plan& plan, const Values& options, const Ru
 }
 
 /// Run context with only as many threads as memory allows. For the star discrepancy in two or three
-/// dimensions, each set that is searched holds n^2 counts, a plane of boxes, per thread.
+/// dimensions, each set that is searched holds a plane of boxes per thread.
 RunContext fitting(const Plan& plan, const Values& options, const RunContext& run) {
     constexpr std::uint64_t most = std::uint64_t{1} << 16;
     if (plan.count > most)
         fail(ErrorKind::limit, "optimized: {} points; a search over coordinates takes up to {}",
              plan.count, most);
     if (options[objective] != "star" || plan.dimension > 3) return run;
-    const auto n = static_cast<double>(plan.count + 32);
-    const double plane = 4 * n * n;
+    const double plane = anchored_memory(plan.count, plan.dimension);
     run.need_memory(plane, "the search for coordinates");
     const double planes = static_cast<double>(run.memory_left()) / plane;
     RunContext fit = run;
@@ -523,7 +522,7 @@ Generator unit() {
                         "minimal", "design-augmentation"},
             .traits = {.max_dimension = 100, .sequence = false, .prefix = false},
             .options = Schema(objective, effort, initial, from, keep, axis_weights, lattice, order),
-            .stream_version = 2,
+            .stream_version = 3,
             .plan = plan,
             .set = make,
             .notes = notes,

@@ -124,6 +124,13 @@ TEST(Optimized, DoesNotDependOnThreadsUnderAnyObjective) {
     }
 }
 
+// More boxes are found than count; which of them do does not depend on who found them.
+TEST(Optimized, OfManyPointsInSpaceDoesNotDependOnThreads) {
+    const Settings little{{"effort", "1e-4"}};
+    EXPECT_EQ(make("optimized", points(600, 3), little, {.threads = 1}),
+              make("optimized", points(600, 3), little, {.threads = 3}));
+}
+
 TEST(Optimized, OnTheLineIsBestUnderAnyObjective) {
     for (const Judged& one : objectives) {
         const PointSet set = make("optimized", points(7, 1), {{"objective", one.objective}});
