@@ -104,9 +104,11 @@ Layout layout_of(SetsHead head, const SetStream& stream, const Target& target) {
     return layout;
 }
 
-/// Provenance for a file beside the points, if requested and if their format cannot hold it.
-std::optional<io::CarriedMeta> meta_beside(const Layout& layout, const std::string& path,
-                                           const Target& target, const RunContext& run) {
+/// Text of a provenance file beside the points, with "?" as `front`, if requested and if their
+/// format cannot hold it; otherwise empty. Made before files are, since a JSON value that runs out
+/// of memory in its destructor ends the program, which would leave parts of files.
+std::string meta_beside(const Layout& layout, const std::string& path, const Target& target,
+                        const RunContext& run) {
     if (!target.meta || !target.format->traits.meta_beside || target.sink) return {};
     if (path == "-" || path.starts_with("/dev/")) {
         run.notify(
@@ -114,12 +116,14 @@ std::optional<io::CarriedMeta> meta_beside(const Layout& layout, const std::stri
                         target.format->name, path == "-" ? "standard output" : path));
         return {};
     }
-    return io::CarriedMeta{.of = target.format->name,
-                           .width = layout.width(),
-                           .sets = layout.counts.are_equal() ? layout.counts.size() : 0,
-                           .single = layout.single,
-                           .extras = layout.extras,
-                           .provenance = layout.provenance};
+    return io::to_text({.of = target.format->name,
+                        .width = layout.width(),
+                        .sets = layout.counts.are_equal() ? layout.counts.size() : 0,
+                        .single = layout.single,
+                        .front = "?",
+                        .extras = layout.extras,
+                        .provenance = layout.provenance}) +
+           "\n";
 }
 
 /// Checks that no two sets would be written to one file: sets from files may have the same seed.
@@ -170,7 +174,7 @@ bool write_file(const SetStream& stream, std::size_t first, std::size_t last,
                 const std::string& path, const Target& target, io::Outputs& outputs,
                 RunContext run) {
     const Layout layout = layout_of(stream.head(first, last), stream, target);
-    auto meta = meta_beside(layout, path, target, run);
+    std::string meta = meta_beside(layout, path, target, run);
     check_format(*target.format, layout);
     if (stream.one_at_a_time && last - first == 1 && was_interrupted(layout.provenance))
         run = unstopped(run);  // the search was stopped; writes its best result
@@ -180,9 +184,9 @@ bool write_file(const SetStream& stream, std::size_t first, std::size_t last,
     write_side_files(open.side_files, outputs, run);
     io::Output& output = target.sink ? outputs.add(target.sink) : outputs.add(path, run.stop);
     const bool wanted = write_points(stream, open, first, last, layout, target, output, run, part);
-    if (meta) {
-        meta->front = output.front();
-        outputs.add(io::meta_path(path), run.stop).write(io::to_text(*meta) + "\n");
+    if (!meta.empty()) {
+        replace_all(meta, R"("front":"?")", fmt::format(R"("front":"{}")", output.front()));
+        outputs.add(io::meta_path(path), run.stop).write(meta);
     }
     // The sets of a sequence share their side files, which come with the last set.
     if (last - first > 1) write_side_files(open.side_files, outputs, run);
