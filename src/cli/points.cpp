@@ -245,9 +245,8 @@ int GenerateRequest::perform(Session& session) const {
     left_out.emplace_back("format");
     job.command = command_text(*this, std::move(left_out), job.request.seed);
     if (target.format->name != "csv") job.command += " --format " + target.format->name;
-    produce(job, target, session.run());
     // An interrupted search has written its best points; the exit code lets scripts stop.
-    return session.run().stop.stop_requested() ? 130 : 0;
+    return produce(job, target, session.run()) ? 130 : 0;
 }
 
 namespace {

@@ -35,10 +35,15 @@ class Producer {
         check_side_files();
     }
 
-    void go() {
-        if (sets_.streamed()) return stream();
+    /// Returns whether the points are the best of a search that was stopped.
+    bool go() {
+        if (sets_.streamed()) {
+            stream();
+            return false;
+        }
         const auto make = [this](std::size_t set) { return made(set); };
         write_sets(stream_of(job_.sets, make, sets_.plan().seed, &sets_.chain()), target_, run_);
+        return stopped_;
     }
 
   private:
@@ -120,7 +125,7 @@ class Producer {
     }
 
     /// Makes one set in memory: generates and warps it, and cuts out the shard.
-    [[nodiscard]] PointSet made(std::size_t set) const {
+    [[nodiscard]] PointSet made(std::size_t set) {
         RunContext run = part_of_run(run_, set, job_.sets);
         if (job_.sets > 1) run.note = nullptr;  // notes on a set would hide the total time left
         run.keeps_best = job_.sets == 1 && target_.path != "-" && !target_.take;
@@ -140,6 +145,7 @@ class Producer {
         for (SideFile& file : points.side_files)
             file.path = path_of_set(std::move(file.path), set, points.provenance.seed);
         sign_pictures(points);
+        stopped_ = was_interrupted(points.provenance);
         return points;
     }
 
@@ -165,12 +171,13 @@ class Producer {
     const Target& target_;
     const RunContext& run_;
     GeneratedSets sets_;
+    bool stopped_ = false;
 };
 
 }  // namespace
 
-void produce(const SetsToMake& job, const Target& target, const RunContext& run) {
-    Producer(job, target, run).go();
+bool produce(const SetsToMake& job, const Target& target, const RunContext& run) {
+    return Producer(job, target, run).go();
 }
 
 void write_sets(std::vector<PointSet> sets, const Target& target, const RunContext& run) {

@@ -12,8 +12,9 @@
 namespace stipple {
 
 /// Makes the sets and writes them. Returns early, without an error, if the reader closes the pipe.
+/// Returns whether the points are the best of a search that was stopped.
 /// @throws Error, without leaving output at the target
-void produce(const SetsToMake& job, const Target& target, const RunContext& run);
+bool produce(const SetsToMake& job, const Target& target, const RunContext& run);
 
 /// Writes sets that are in memory.
 /// @throws Error(input) if there are no sets, if one has no points, or if their dimensions differ

@@ -53,6 +53,34 @@ TEST(WriteSets, TakesPointsWithoutADomainForThoseOfTheCube) {
     EXPECT_GT(analyze("chi-square", more).number("p_value"), 0);
 }
 
+// A stop that comes when the points are written has interrupted nothing.
+TEST(Produce, TellsWhetherASearchWasStopped) {
+    const auto is_stopped = [](const char* name, const Target& target, const RunContext& of) {
+        SetsToMake job;
+        job.generator = &find_generator(name);
+        job.options = job.generator->options.defaults();
+        job.request = {.count = 24, .dimension = 2};
+        return produce(job, target, of);
+    };
+    for (const char* name : {"random", "poisson-disk"}) {
+        std::stop_source late;
+        Target target{.format = &io::format_named("json")};
+        target.sink = [&](std::string_view bytes) {
+            if (bytes.ends_with("}\n")) late.request_stop();
+            return true;
+        };
+        EXPECT_FALSE(is_stopped(name, target, {.threads = 1, .stop = late.get_token()}));
+        EXPECT_TRUE(late.stop_requested());
+    }
+    const TemporaryFile file("", ".csv");
+    std::stop_source early;
+    RunContext run{.threads = 1, .stop = early.get_token()};
+    run.progress = [&](double done) {
+        if (done > 0) early.request_stop();
+    };
+    EXPECT_TRUE(is_stopped("optimized", {.path = file.path()}, run));
+}
+
 // Sets made one at a time: on disk they are the same, and what all of them have is known.
 TEST(SetStream, WaitsOnDiskWithCountsAndCommonOptions) {
     const auto make = [](std::size_t set) {
