@@ -370,10 +370,9 @@ bool has_tabs_and_commas(std::string_view line) {
 std::string without_quoted(std::string_view line) {
     std::string bare;
     for (std::size_t i = 0; i < line.size(); ++i) {
-        const bool field_starts =
-            i == 0 || std::string_view(",; \t").find(line[i - 1]) != line.npos;
-        const std::size_t close =
-            line[i] == '"' && field_starts ? line.find('"', i + 1) : line.npos;
+        const bool opens =
+            line[i] == '"' && (i == 0 || std::string_view(",; \t").find(line[i - 1]) != line.npos);
+        const std::size_t close = opens ? line.find('"', i + 1) : line.npos;
         if (close != line.npos)
             i = close;
         else
