@@ -378,16 +378,17 @@ class Plot {
                  reports_[0].analyzer);
         while (!reports_.empty()) {
             const std::string analyzer = reports_[0].analyzer;
-            const auto others = std::ranges::stable_partition(
-                reports_, [&](const Measurement& m) { return m.analyzer == analyzer; });
-            const std::span own(reports_.begin(), others.begin());
+            const auto others =
+                std::stable_partition(reports_.begin(), reports_.end(),
+                                      [&](const Measurement& m) { return m.analyzer == analyzer; });
+            const std::span own(reports_.begin(), others);
             if (!add_pair_tables(own)) {
                 plot::Chart chart =
                     plot::chart_of(own, request_.key.value_or(""), style_.log_x.value_or(false));
                 rename(chart);
                 add(std::move(chart));
             }
-            reports_.erase(reports_.begin(), others.begin());
+            reports_.erase(reports_.begin(), others);
         }
     }
 

@@ -98,7 +98,7 @@ std::vector<Topic> topics_of(std::span<const MeanRow> means, const std::string& 
         if (!wanted || !std::isfinite(row.mean)) continue;
         if (std::ranges::find(topics, topic) == topics.end()) topics.push_back(topic);
     }
-    std::ranges::stable_partition(topics, is_value);
+    std::stable_partition(topics.begin(), topics.end(), is_value);
     return topics;
 }
 

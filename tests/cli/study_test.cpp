@@ -648,8 +648,8 @@ TEST(Study, ResumeMeasuresAgainWhatLackedAFileOrMemory) {
     const std::string large =
         "stipple study --generators 'halton,lloyd:iterations=0' -n 100,50000 --analyze moments "
         "--keys mean --no-seconds --threads 1 -o ";
-    const Outcome small = box.shell(large + "l.csv --max-memory 3M");
-    EXPECT_EQ(small.code, 5) << small.out << small.err;
+    const Outcome tight = box.shell(large + "l.csv --max-memory 3M");
+    EXPECT_EQ(tight.code, 5) << tight.out << tight.err;
     EXPECT_THAT(box.read("l.csv"), HasSubstr("failed,limit: "));
     EXPECT_EQ(good(box.shell(large + "l.csv --resume")), "");
     EXPECT_EQ(good(box.shell(large + "all.csv")), "");

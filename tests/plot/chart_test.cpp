@@ -609,7 +609,8 @@ TEST(Chart, CutsNoTextOff) {
                 const auto where = fmt::format("{} {} x {}, {}", kind, width, height, name);
                 PictureStyle style{.width = double(width), .height = double(height)};
                 Drawing drawing;
-                const std::string refusal = error_of([&] { drawing = fitted(style, draw); });
+                const std::string refusal =
+                    error_of([&, &picture = draw] { drawing = fitted(style, picture); });
                 if (!refusal.empty()) {
                     EXPECT_TRUE(width == 120 || height > 0) << where;
                     ASSERT_THAT(refusal, HasSubstr("no room for the picture; at least ")) << where;

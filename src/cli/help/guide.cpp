@@ -138,7 +138,7 @@ const std::vector<GuidePage>& guide() {
         auto [bytes, size] = compressed_topics();
         std::string all(size, '\0');
         Decompressor(
-            Compression::zstd, [&] { return std::exchange(bytes, {}); }, "guide")
+            Compression::zstd, [&left = bytes] { return std::exchange(left, {}); }, "guide")
             .read(all);
         return all;
     }();

@@ -195,7 +195,7 @@ TEST(Sensitivity, WarpedDesignsKeepTheirMethod) {
 // Complete rows that fit no method, in any order, cause a note; so do dependent inputs.
 TEST(Sensitivity, SaysThatADesignIsBroken) {
     Rows rows = pick_freeze_rows(make("sobol", points(64, 6)), false);
-    std::ranges::rotate(rows, rows.begin() + 2);
+    std::rotate(rows.begin(), rows.begin() + 2, rows.end());
     PointSet table = with_outputs(rows, linear);
     const Settings settings = {{"response", "4"}};
     ASSERT_EQ(notes_of(table, settings).size(), 1U);

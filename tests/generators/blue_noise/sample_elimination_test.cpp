@@ -356,10 +356,10 @@ double mean_nearest(const PointSet& set) {
     for (std::size_t i = 0; i < set.count(); ++i) {
         double least = 1e300;
         for (std::size_t j = 0; j < set.count(); ++j) {
-            double square = 0;
+            double away = 0;
             for (std::size_t k = 0; k < set.dimension(); ++k)
-                square += (set[i][k] - set[j][k]) * (set[i][k] - set[j][k]);
-            if (j != i) least = std::min(least, square);
+                away += (set[i][k] - set[j][k]) * (set[i][k] - set[j][k]);
+            if (j != i) least = std::min(least, away);
         }
         sum += std::sqrt(least);
     }
