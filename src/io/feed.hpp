@@ -36,8 +36,8 @@ class Feed {
         return file_.descriptor < 0 || front_.size() < front_size;
     }
 
-    /// Reads the next bytes, beginning with the front, and returns how many: fewer than requested
-    /// only at the end. @throws Error(io) if the file has changed since it was opened
+    /// Reads the next bytes of the input, which begins with front(); returns how many: fewer than
+    /// requested only at the end. @throws Error(io) if the file has changed since it was opened
     std::size_t read(std::span<char> bytes);
 
     /// Skips up to `count` bytes and returns how many were skipped; nullopt if the input cannot

@@ -48,8 +48,8 @@ void check_densities(const PointSet& points);
 /// @throws Error(usage), Error(input)
 void check_set(const PointSet& points);
 
-/// Checks the domain of points for an analyzer of the unit cube: even points in the cube may be a
-/// sample of another domain. @throws Error(input)
+/// For an analyzer of the unit cube, rejects points of another domain, even if all are in the cube.
+/// Accepts sets with points outside the cube: a later check rejects them. @throws Error(input)
 void require_cube_domain(const PointSet& points, const Analyzer& analyzer);
 
 /// Analyzes a set. First checks that the analyzer accepts the dimension. For an analyzer of the

@@ -392,7 +392,7 @@ search::Objective objective_of(const Values& options) {
             static_cast<int>(options[power])};
 }
 
-/// The given points, followed by points in the strata of a design.
+/// The points to extend, if any, followed by points in the strata of the design's other rows.
 std::unique_ptr<Sequence> points_of(std::shared_ptr<const LatinPlaces> places,
                                     search::Design design, PointSet given) {
     return sequence_of([places = std::move(places), design = std::move(design),

@@ -276,7 +276,7 @@ std::vector<double>& stack_of_thread() {
     return stack;
 }
 
-/// Value of some steps at one point.
+/// Value of the formula's steps [first, last) at one point.
 double value_of(std::span<const FormulaStep> all, std::size_t first, std::size_t last,
                 const double* point) {
     std::vector<double>& stack = stack_of_thread();

@@ -436,7 +436,7 @@ class StripTabulator {
         if (!(strip.low < middle && middle < strip.high) || count_ > most_patches) refuse(strip);
         if (count_ > planned_) {
             planned_ = count_ + count_ / 4 + 4096;
-            constexpr double bytes_a_patch = 300;  // here and in the final table
+            constexpr double bytes_a_patch = 300;  // in this table and the final one together
             run_.need_memory(bytes_a_patch * static_cast<double>(planned_),
                              "the table of " + what_);
         }

@@ -17,7 +17,7 @@ constexpr std::size_t table_words = 2048;
 /// Minimum number of words in an inner loop, so that vectors leave little or no remainder.
 constexpr std::size_t run_words = 64;
 
-/// Sets out[j] = low[j] xor high[j mod period], as a double in [0, 1) or as a fraction.
+/// Sets out[j] = low[j] xor high[j mod period], converted to [0, 1) if `out` holds doubles.
 STIPPLE_WIDE void add_high(const std::uint64_t* low, const std::uint64_t* high, std::size_t period,
                            std::size_t words, double* out) {
     for (std::size_t base = 0; base < words; base += period)

@@ -130,7 +130,7 @@ class BoxAscent {
         return worst;
     }
 
-    /// Worst of all intervals on the axis. `all` is grid_.scale * section(axis).
+    /// Worst interval anywhere on the axis. `all` is the box's scaled volume per length along it.
     [[nodiscard]] Found worst_ends(std::size_t axis, double all) {
         const auto& values = grid_.values[axis];
         line_.clear();

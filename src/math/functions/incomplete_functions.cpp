@@ -197,7 +197,7 @@ struct Parts {
 
 Parts parts_of(double x) { return {{x, 0}, exact_sum(1, -x)}; }
 
-/// Computes x and 1 - x, both from the smaller one.
+/// Extends x and 1 - x to twice the precision of a double; the smaller one determines both.
 Parts parts_of(const Shares& at) {
     if (at.x < at.rest) return parts_of(at.x);
     const auto [x, rest] = parts_of(at.rest);

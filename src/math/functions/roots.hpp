@@ -44,7 +44,7 @@ struct CubeRootStart {
     std::uint64_t third;  ///< a third of the biased exponent; 341 is that of the bias
 };
 
-/// Splits a number of at least 2^-1022, and guesses the cube root of its part t.
+/// Splits a number >= 2^-1022 into t and a power of 8, and guesses the cube root of t.
 [[gnu::always_inline]] inline CubeRootStart cube_root_start(double size) {
     constexpr double round = 0x1.8p52;  // adding it puts the nearest integer into the low bits
     const auto bits = std::bit_cast<std::uint64_t>(size);

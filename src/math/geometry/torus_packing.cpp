@@ -108,7 +108,7 @@ std::optional<Vector> partner(Vector u, std::int64_t n, const Metric& metric) {
     const Bezout unit = bezout(u.x, u.y);
     const std::int64_t g = unit.divisor;
     if (n % g != 0) return std::nullopt;
-    // A solution v of u x v = n, reduced modulo u / g in the larger component of u.
+    // Some v with u x v = n, made small by subtracting multiples of u / g (u x v stays n).
     const Int128 far_x = -Int128{unit.t} * (n / g);
     const Int128 far_y = Int128{unit.s} * (n / g);
     const Int128 turns = u.x > u.y ? far_x / (u.x / g) : far_y / (u.y / g);

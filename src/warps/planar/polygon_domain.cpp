@@ -437,7 +437,7 @@ double PolygonDomain::gap(const Slab& slab, PlanePoint p) const {
     return nearest_part(row_at(slab, std::clamp(p.y, slab.bottom, slab.top)), p.x).gap;
 }
 
-/// The slab with the smallest gap() from the point, among those at its height up to slack_.
+/// Of the slabs within slack_ of the point's height, the one with the smallest gap() from it.
 const PolygonDomain::Slab& PolygonDomain::slab_around(PlanePoint p) const {
     const auto above = std::ranges::upper_bound(slabs_, p.y, {}, &Slab::bottom);
     const auto home = above == slabs_.begin() ? above : above - 1;

@@ -109,7 +109,7 @@ class PolygonDomain final : public NamedDomain {
         double height() const { return top - bottom; }
     };
 
-    /// The parts of one band, all crossed by a row at the same relative height.
+    /// Section of one band by a horizontal row, which crosses all parts of the band.
     struct Cut {
         const Part* parts;
         std::size_t count;

@@ -280,8 +280,8 @@ class Quadtree {
 
     [[nodiscard]] const std::vector<Body>& leaves() const { return leaves_; }
 
-    /// sigma^2 at (x, y) in the unit square: the area per point in the square of the box that is
-    /// centred there and holds window_mass points.
+    /// sigma^2 at (x, y), given in fractions of the box's sides: the area per point of a square
+    /// window, centred there, that holds window_mass points.
     [[nodiscard]] double square_at(double x, double y) const {
         double low = 0;
         double high = 0.5;

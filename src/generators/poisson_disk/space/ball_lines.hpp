@@ -50,7 +50,7 @@ struct PlacedBall {
 void cover_lines(const std::array<float, 3>& scales, std::span<const PlacedBall> balls,
                  std::uint32_t* lines);
 
-/// First word of the lines through a cell; a word holds eight neighbouring cells.
+/// Word of the first of the 4 x 4 lines through a cell; it also covers seven neighbouring cells.
 inline const std::uint32_t* lines_of(const std::uint32_t* lines, const TileCell<3>& cell) {
     return lines + BallLines::at(static_cast<std::size_t>(cell[0]) / 8,
                                  4 * static_cast<std::size_t>(cell[1]),

@@ -66,7 +66,7 @@ class Criterion {
 
     [[nodiscard]] virtual double energy() const = 0;
 
-    /// Whether the energy cannot be lower or, for maximin, the target is reached.
+    /// Whether the energy is known to be minimal; for maximin: whether the target is reached.
     [[nodiscard]] virtual bool reached() const { return false; }
 
     /// Sets the target of maximin, a squared distance; 0: the mean squared distance of nearest

@@ -45,7 +45,7 @@ std::vector<double> stages_of(double trials, double usual, std::size_t points) {
     constexpr double few = 96;
     std::vector<double> stages{few};
     const double least = std::min(usual / 8, 64 * static_cast<double>(points));
-    double sum = usual;  // total if the next stage has sum / 2 trials
+    double sum = usual;  // approximate total after a next stage of sum / 2 trials
     while (sum / 2 >= least) sum /= 2;
     for (; sum <= trials; sum *= 2) stages.push_back(sum / 2);
     return stages;

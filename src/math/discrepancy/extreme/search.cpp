@@ -560,7 +560,7 @@ SearchLimits share_for_bound(const SearchLimits& limits, const RunContext& run) 
 }  // namespace
 
 double search_memory(const PointSet& points, unsigned threads) {
-    // A thread keeps a line for each split; about every 2 d splits halve its length.
+    // A thread keeps a Line for each nested split; about 2 d splits deeper, Lines are half as long.
     const auto d = static_cast<double>(points.dimension());
     const double lines = std::min(3 * d + 2, 24.0);
     const double per_point = d * static_cast<double>(axis_bytes(false)) + 40 +

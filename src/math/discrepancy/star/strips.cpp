@@ -34,7 +34,7 @@ constexpr std::size_t lanes = sizeof(Floats) / sizeof(float);
 
 std::size_t padded(std::size_t size) { return (size + lanes - 1) / lanes * lanes; }
 
-/// Upper bound on the rounding error of a chord, in points.
+/// Exceeds the rounding error of any term of a bound, such as a chord; in numbers of points.
 constexpr double margin = 0x1p-8;
 
 /// Value of c for padding: its line stays far below all others, even after points are added.
