@@ -137,7 +137,7 @@ std::string Feed::read_all() {
     std::size_t room = size_ > bytes.size() ? size_ + 1 : bytes.size() + front_size;
     constexpr std::size_t step = std::size_t{4} << 20;  // bytes between checks of the stop token
     for (;; room = 2 * bytes.size()) {
-        run_.need_memory(static_cast<double>(room), "the bytes of " + name_);
+        run_.need_memory(static_cast<double>(room), "the content of " + name_);
         bytes.reserve(room);
         while (bytes.size() < room) {
             const std::size_t before = bytes.size();

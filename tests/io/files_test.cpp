@@ -103,7 +103,7 @@ TEST_F(Files, InputStopsWaitingWhenAsked) {
 TEST_F(Files, InputHonoursTheMemoryLimit) {
     const std::string error =
         error_of([] { io::read_bytes("/dev/zero", {.max_memory = 1 << 20}); });
-    EXPECT_TRUE(error.starts_with("limit: the bytes of /dev/zero needs")) << error;
+    EXPECT_TRUE(error.starts_with("limit: the content of /dev/zero needs")) << error;
 }
 
 // A file that grows, shrinks or is rewritten while it is read is not one file.

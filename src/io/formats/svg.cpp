@@ -110,7 +110,7 @@ Sheet sheet_of(const Layout& layout) {
     return sheet;
 }
 
-/// Removes characters with a special meaning in XML, and control characters.
+/// Removes < and &, which are special in the text of XML, and control characters.
 std::string without_markup(std::string text) {
     std::erase_if(
         text, [](char c) { return c == '<' || c == '&' || static_cast<unsigned char>(c) < 0x20; });

@@ -203,7 +203,7 @@ class Sweep {
         }
     }
 
-    /// Offers all rectangles of full height on the torus.
+    /// Offers the rectangles of full height between neighbours along x on the torus.
     void offer_full_heights() {
         for (std::uint32_t a = 0; a < end_; ++a) offer({a, a + 1}, {0, 0});
         offer({end_, 0}, {0, 0});

@@ -375,7 +375,7 @@ struct Beta {
         const double from_high = tail == Tail::lower ? at.rest : at.x;
         return from_low < 0.5 ? low + from_low * (high - low) : high - from_high * (high - low);
     }
-    /// Probability, computed from the nearer end: the distance from it has no rounding error.
+    /// Probability, computed from the nearer end, so that no digits are lost close to it.
     double probability(double x, Tail tail) const {
         const double y = (x - low) / (high - low);
         const double rest = (high - x) / (high - low);
