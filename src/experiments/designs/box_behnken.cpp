@@ -5,7 +5,7 @@
 // middle level. Runs at the centre follow.
 //
 //     factors     3   4   5   6   7    9   10   11   12   16
-//     block       2   2   2   3   3    3    4    5    4    4      (11: half of 2^5, E = ABCD)
+//     block size  2   2   2   3   3    3    4    5    4    4      (size 5: E = ABCD, 16 runs)
 //     runs       12  24  40  48  56  120  160  176  192  384      plus those at the centre
 //
 // Shape   (runs above + --center) x k for these k.
@@ -41,7 +41,7 @@ constexpr Blocks published[] = {
      "1269 348b 5ade 7cfg 237a 145c 6bef 89dg 256d 478f 19ae 3bcg 367e 158g 2abf 49cd 13df 24eg "
      "579b 68ac 46ag 359f 17bd 28ce"}};
 
-/// Blocks for 3 to 16 factors. @throws Error(usage) naming the nearest numbers
+/// Blocks of the published design. @throws Error(usage) if there is none for this many factors
 const Blocks& blocks_for(std::size_t factors) {
     const auto* const blocks = std::ranges::lower_bound(published, factors, {}, &Blocks::factors);
     if (blocks->factors != factors)
@@ -65,7 +65,7 @@ Places places_of(const Blocks& blocks) {
     return places;
 }
 
-/// Binary logarithm of the runs per block: all combinations of up to four factors.
+/// Binary logarithm of the runs per block: the number of its factors, but 4 for five factors.
 std::size_t log_runs(const Blocks& blocks) {
     return std::min<std::size_t>(4, blocks.list.find(' '));
 }

@@ -4,7 +4,7 @@
 // first factor changes fastest. levels.hpp defines the coordinates of levels.
 //
 // Shape   n = m_1 m_2 ... m_k runs, up to 2^53. Without --levels, a given count must be m^k.
-//         Without either, a factor has two levels, or the outcomes of its parameter, up to ten.
+//         With neither, a factor has 2 levels, or one per outcome of a parameter with up to 10.
 // Source  D. C. Montgomery, "Design and Analysis of Experiments", Wiley, chapter 5.
 
 #include <algorithm>
@@ -57,7 +57,7 @@ Plan plan(const Request& request, const Values& options) {
     return plan_of_runs(request, runs, d, "--levels " + format_value(Value(given)));
 }
 
-/// Checks that all outcomes of a parameter occur equally often. @throws Error(usage)
+/// Checks that a factor has at most as many levels as outcomes, or a multiple. @throws Error(usage)
 void check_outcomes(const std::vector<std::uint64_t>& sizes, const LevelPlaces& places) {
     for (std::size_t k = 0; k < sizes.size(); ++k) {
         const std::uint64_t outcomes = places.outcomes(k);

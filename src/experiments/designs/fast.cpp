@@ -33,7 +33,7 @@ constexpr Param<std::int64_t> harmonics{.name = "harmonics",
                                             "Number M of harmonics of a factor's frequency that "
                                             "count as the factor's; the analysis needs the same"};
 
-constexpr std::uint64_t usual_curve = 1025;  // 2 M w + 1 for M = 4 and w = 128: no aliasing
+constexpr std::uint64_t usual_curve = 1025;  // runs: 2 M w + 1 for M = 4, frequency w = 128
 
 Plan plan(const Request& request, const Values& options) {
     const std::size_t k = request.dimension.value_or(2);
@@ -48,7 +48,7 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-/// Frequencies from 1 to `most` of the factors other than a curve's own, in their order.
+/// Frequencies, from 1 to `most`, of the `count` factors to which a curve does not belong.
 std::vector<std::uint64_t> other_frequencies(std::size_t count, std::uint64_t most) {
     std::vector<std::uint64_t> others;
     for (std::uint64_t i = 0; i < count; ++i)

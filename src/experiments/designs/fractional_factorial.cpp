@@ -3,8 +3,8 @@
 // Regular fractional factorial design 2^(k-p): k factors of two levels in n = 2^(k-p) runs of the
 // full factorial (regular_fraction.hpp). The factors are A, B, ..., Z, a, ..., z, without I and i,
 // because I denotes the mean. The fraction is given by --generators (D=ABC,E=-AB, with the defining
-// relation I=ABCD=-ABE=-CDE) or taken from a table, fractions.txt: for a count, that of the highest
-// known resolution; for a resolution, that of the fewest runs; of these, of the least aberration.
+// relation I=ABCD=-ABE=-CDE) or taken from a table, fractions.txt: a count selects the highest
+// known resolution; a resolution selects the fewest runs. The least aberration breaks ties.
 //
 //     III   main effects are aliased with interactions of two factors, but not with each other
 //     IV    main effects are aliased with interactions of three factors; interactions of two
@@ -15,7 +15,7 @@
 //         Runs are in standard order of the factors without a generator, the first fastest.
 // Promise the provenance has the resolution and the number of words of each length; for p <= 6 also
 //         the words and the shortest aliases of main effects; for fractions of the table whether a
-//         better one of as many runs is impossible (search: complete) or not (limited, noted).
+//         better one with as many runs is excluded (search: complete) or may exist (limited).
 // Source  G. E. P. Box, J. S. Hunter, Technometrics 3 (1961) 311-351,
 //         doi:10.1080/00401706.1961.10489951; A. Fries, W. G. Hunter, Technometrics 22 (1980)
 //         601-608, doi:10.1080/00401706.1980.10486210 (aberration).
@@ -227,7 +227,7 @@ KnownFraction decide(std::optional<std::uint64_t> count, std::size_t factors,
     return *known;
 }
 
-/// The dimension, or the number of factors in the equations. @throws Error(usage)
+/// Dimension; by default up to the last factor in the equations, or 3. @throws Error(usage)
 std::size_t factors_of(const Request& request, const Values& options) {
     if (!options.given(equations)) return request.dimension.value_or(3);
     std::uint64_t named = 0;
@@ -277,8 +277,8 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
         findings_of(known, options.given(equations), ends));
 }
 
-/// Smallest number of runs, below that of the known fraction, for which a fraction of this
-/// resolution is neither known nor excluded; 0 if there is none.
+/// Smallest number of runs below that of `known` for which a fraction of resolution `asked` has not
+/// been excluded; 0 if all are excluded.
 std::uint64_t fewer_in_doubt(std::size_t factors, const KnownFraction& known, std::size_t asked) {
     for (std::size_t basic = 1; basic < known.design.basic.size(); ++basic)
         if (const auto smaller = known_fraction(factors, basic); smaller && smaller->bound >= asked)

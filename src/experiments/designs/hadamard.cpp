@@ -29,7 +29,7 @@ const char* hadamard_table();  // contents of hadamard.txt
 /// Source  J. M. Goethals, J. J. Seidel, J. Austral. Math. Soc. 11 (1970) 343-344,
 ///         doi:10.1017/S144678870000673X; hadamard.txt for the functions.
 struct GoethalsSeidel {
-    /// Element i inner + j of the group is the pair (i, j), i modulo outer and j modulo inner.
+    /// Number i * inner + j denotes the pair (i, j), with i modulo `outer` and j modulo `inner`.
     std::uint64_t outer;
     std::uint64_t inner;
     std::array<std::vector<bool>, 4> ones = {};  ///< elements at which A, B, C and D are 1
@@ -57,7 +57,7 @@ struct GoethalsSeidel {
 
 namespace {
 
-/// Functions on a group of v elements; nullptr if the table has none.
+/// The table's functions on a group of v elements; nullptr if it has none.
 const GoethalsSeidel* goethals_seidel(std::uint64_t v) {
     static const auto all = [] {
         std::vector<GoethalsSeidel> groups;
@@ -90,7 +90,7 @@ std::uint64_t lower_twin(std::uint64_t q) {
     return a >= 3 && a * (a + 2) == q && is_prime(a) && is_prime(a + 2) ? a : 0;
 }
 
-/// x - y in the field of order p^m, with digits in base p as coefficients of t^i; or modulo p.
+/// x - y, each digit in base p modulo p: elements of a field with the digits as coefficients.
 std::uint64_t difference(std::uint64_t x, std::uint64_t y, std::uint64_t p) {
     if (x < p && y < p) return x < y ? x + p - y : x - y;
     std::uint64_t out = 0;
@@ -99,8 +99,8 @@ std::uint64_t difference(std::uint64_t x, std::uint64_t y, std::uint64_t p) {
     return out;
 }
 
-/// Squares of the field, including 0: the even powers of t modulo the first polynomial, in order of
-/// coefficients, that has t as a primitive root.
+/// Whether each element of the field is a square. Squares are 0 and the even powers of t, modulo
+/// the first polynomial for which t is a primitive root.
 std::vector<bool> squares_of_field(std::uint64_t q, std::uint64_t p) {
     for (std::uint64_t polynomial = 1; polynomial < q; ++polynomial) {
         std::vector<bool> square(q);
@@ -108,7 +108,7 @@ std::vector<bool> squares_of_field(std::uint64_t q, std::uint64_t p) {
         std::uint64_t power = 1;
         std::uint64_t steps = 0;
         do {
-            const std::uint64_t carry = power / (q / p);  // coefficient of t^r = -polynomial
+            const std::uint64_t carry = power / (q / p);  // coefficient of t^m; t^m = -polynomial
             power = power % (q / p) * p;
             for (std::uint64_t c = 0; c < carry; ++c) power = difference(power, polynomial, p);
             ++steps;
@@ -125,7 +125,7 @@ std::vector<bool> squares_of_prime(std::uint64_t p) {
     return square;
 }
 
-/// Sequence of Stanton and Sprott, rotated to give Plackett and Burman's design of 36 runs.
+/// Row 0 from twin primes a and a + 2, rotated so that 36 runs are Plackett and Burman's design.
 std::vector<bool> twin_sequence(std::uint64_t a) {
     const auto of_a = squares_of_prime(a);
     const auto of_b = squares_of_prime(a + 2);
@@ -144,7 +144,7 @@ std::vector<bool> squares_of(std::uint64_t q) {
     return p == q ? squares_of_prime(q) : squares_of_field(q, p);
 }
 
-/// First construction of a matrix of this order, a multiple of 4, without doubling.
+/// First construction of hadamard.hpp, apart from doubling, for an order that is a multiple of 4.
 HadamardKind kind_of(std::uint64_t order) {
     if (prime_of_power(order - 1) != 0) return HadamardKind::paley_one;
     if (lower_twin(order - 1) != 0) return HadamardKind::twin_primes;
@@ -202,15 +202,15 @@ bool Hadamard::positive(std::uint64_t row, std::uint64_t column) const {
 
 bool Hadamard::core(std::uint64_t row, std::uint64_t column) const {
     if (column == 0) return true;
-    if (four_ != nullptr)  // each row is divided by its first entry
+    if (four_ != nullptr)  // rows that begin with -1 are negated
         return four_->positive(row, column) == four_->positive(row, 0);
     if (kind_ == HadamardKind::miyamoto) return miyamoto(row, column) == miyamoto(row, 0);
     if (kind_ == HadamardKind::paley_two) return paley_two(row, column);
     return row != base_ - 1 && square_[difference(column - 1, row, prime_)];
 }
 
-/// Entry of C (x) (1 1 / 1 -1) + I (x) (1 -1 / -1 -1), where C is the conference matrix. Row 1 is
-/// negated so that the first column is all 1.
+/// Entry of C (x) (1 1 / 1 -1) + I (x) (1 -1 / -1 -1), where C is the conference matrix and (x)
+/// the Kronecker product. Row 1 is negated so that the first column is all 1.
 bool Hadamard::paley_two(std::uint64_t row, std::uint64_t column) const {
     const std::uint64_t i = row / 2;
     const std::uint64_t k = column / 2;

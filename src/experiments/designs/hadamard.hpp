@@ -57,10 +57,10 @@ class Hadamard {
     std::uint64_t base_;  ///< order before doubling
     HadamardKind kind_;
     std::uint64_t prime_ = 0;   ///< prime of which q is a power; p (p + 2) for twin primes
-    std::vector<bool> square_;  ///< whether the character of an element is 1, or the element is 0
+    std::vector<bool> square_;  ///< whether an element is 0 or its character is 1
     const GoethalsSeidel* four_ = nullptr;
     std::shared_ptr<const Hadamard> smaller_;  ///< Hadamard matrix of order q - 1
-    std::vector<std::uint64_t> elements_;      ///< of the field: nonzero squares, then nonsquares
+    std::vector<std::uint64_t> elements_;      ///< nonzero squares of the field, then nonsquares
     std::string construction_;
 };
 

@@ -60,7 +60,7 @@ std::vector<double> level_places(std::uint64_t levels, bool ends);
 /// The --bounds that map the levels to -1, ..., 1, such as "-2..2".
 std::string coded_range(std::uint64_t levels, bool ends);
 
-/// Plan for a fixed number of runs. @throws Error(usage) if the request has another count
+/// Plan for exactly `runs` runs. @throws Error(usage) if the request has another count
 /// @param design name of the design in that message
 Plan plan_of_runs(const Request& request, std::uint64_t runs, std::size_t factors,
                   const std::string& design);
@@ -69,7 +69,7 @@ Plan plan_of_runs(const Request& request, std::uint64_t runs, std::size_t factor
 Plan plan_with_center(const Request& request, const Values& options, std::uint64_t others,
                       std::size_t factors, const std::string& design);
 
-/// Checks that count and start are multiples of `block`. @throws Error(usage) naming `who`
+/// Checks that count and start are multiples of `block`. @throws Error(usage) about design `who`
 void require_whole_blocks(const Plan& plan, std::uint64_t block, const std::string& who);
 
 /// Maps levels to coordinates, separately for each factor of a plan.
@@ -82,7 +82,7 @@ class LevelPlaces {
         return factor < ends_.size() && !ends_[factor].empty() ? ends_[factor].size() - 1 : 0;
     }
 
-    /// Coordinate of the level at x: x itself, or the middle of an outcome's interval.
+    /// The middle of the interval of the outcome at x; x itself if the factor has no outcomes.
     [[nodiscard]] double operator()(std::size_t factor, double x) const;
 
   private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Morris' design for elementary effects: r trajectories of k + 1 runs, each of which differs from
+// Morris' design for elementary effects: r trajectories of k + 1 runs, where each differs from
 // the previous one in one factor. The levels of a factor are l / (p - 1), l = 0, ..., p - 1, over
 // its whole range, and the factor moves by
 //

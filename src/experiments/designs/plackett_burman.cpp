@@ -2,8 +2,8 @@
 //
 // Plackett-Burman design: n runs of up to n - 1 factors with two levels, in which any two factors
 // have each of the four pairs of levels n / 4 times. The columns are those of a Hadamard matrix
-// except its column of 1 (hadamard.hpp). If n - 1 is a prime, or n is 36, they are the published
-// cyclic ones: each run is the previous one shifted by one, and the last has all low levels.
+// except its column of 1 (hadamard.hpp). If n - 1 is prime or n = 36, the design is the published
+// cyclic one: each run is the previous one shifted by one, and the last has all low levels.
 //
 // Shape   n x k, k < n; n a multiple of 4 for which hadamard.hpp has a matrix. The default count is
 //         the smallest for k factors; the default k is n - 1.
@@ -24,7 +24,7 @@ std::uint64_t nearest_below(std::uint64_t count) {
     return n;
 }
 
-/// Smallest possible count of at least `count`; 0 if there is none.
+/// Smallest order of a Hadamard matrix that is at least `count`; 0 if there is none.
 std::uint64_t nearest_above(std::uint64_t count) {
     if (count > most_hadamard) return 0;
     std::uint64_t n = std::max<std::uint64_t>(4, (count + 3) / 4 * 4);

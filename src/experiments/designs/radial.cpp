@@ -35,7 +35,7 @@ std::unique_ptr<Sequence> radial_sequence(const RadialShape& shape, const std::s
                                           std::uint64_t seed, RadialRun write_run) {
     Request request{.dimension = 2 * shape.dimension, .seed = seed};
     const auto points = std::make_shared<const Sampler>(base, request);
-    request.start = 1;  // which only sequences accept
+    request.start = 1;  // makes Sampler fail unless the base is a sequence
     try {
         Sampler(base, request);
     } catch (const Error&) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t bit(std::size_t i) { return std::uint64_t{1} << i; }
 
-/// Words of the factors that are not basic, each with the factors of its product.
+/// For each factor that is not basic, the word of this factor and the factors of its product.
 std::vector<std::uint64_t> generating_words(const RegularFraction& design) {
     std::vector<std::uint64_t> words;
     for (std::size_t k = 0; k < design.factors(); ++k)
@@ -31,7 +31,7 @@ void for_each_sum(const std::vector<std::uint64_t>& parts, const Visit& visit) {
         visit(sum ^= parts[static_cast<std::size_t>(std::countr_zero(i))]);
 }
 
-/// Word length counts A_t from the numbers B_w of sums of rows that contain w factors:
+/// Word length counts A_t. `sums` has for each w the number B_w of sums of rows with w factors:
 /// sum_t A_t z^t = 2^-r sum_w B_w (1 - z)^w (1 + z)^(k - w) (MacWilliams).
 WordLengths from_rows(const std::vector<std::uint64_t>& sums, std::size_t basic) {
     const std::size_t k = sums.size() - 1;
@@ -77,7 +77,7 @@ const FractionRow* row_of(std::size_t factors, std::size_t basic) {
     return found == fraction_rows().end() ? nullptr : &*found;
 }
 
-/// Proven upper bound of the resolution: that of the table's fraction, except in the cases below.
+/// Proven upper bound of the resolution: `resolution`, that of the table, except in open cases.
 std::size_t bound_of(std::size_t factors, std::size_t basic, std::size_t resolution) {
     struct Open {
         std::size_t basic, first, last, bound;

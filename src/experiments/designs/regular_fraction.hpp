@@ -46,7 +46,7 @@ struct RegularFraction {
 /// Full factorial: all combinations of the levels.
 RegularFraction full_fraction(std::size_t factors);
 
-using WordLengths = std::vector<std::uint64_t>;  ///< A_0 = 1, A_1, ..., A_k
+using WordLengths = std::vector<std::uint64_t>;  ///< numbers A_t of words of t letters
 
 /// Word length pattern, in O(2^min(p, r) k).
 WordLengths word_lengths(const RegularFraction& design);
@@ -57,7 +57,7 @@ std::size_t resolution_of(const WordLengths& lengths);
 /// The 2^p - 1 nonempty words of the defining relation, as sets of factors.
 std::vector<std::uint64_t> defining_words(const RegularFraction& design);
 
-/// Best known fraction (fractions.txt), or all combinations.
+/// Best known fraction (fractions.txt), or the full factorial.
 struct KnownFraction {
     RegularFraction design;
     std::size_t resolution = 0;  ///< 0 for a full factorial

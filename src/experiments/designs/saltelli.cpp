@@ -54,7 +54,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
             row[j - 1] = b[j - 1];
             return;
         }
-        // Coordinate that a mixed row keeps from A; k if it keeps none.
+        // The only coordinate from A in this run; k, for none, in the last run, which is B.
         const std::size_t kept = j + 1 < runs ? j - k - 1 : k;
         for (std::size_t i = 0; i < k; ++i)
             if (i != kept) row[i] = b[i];

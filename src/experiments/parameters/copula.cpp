@@ -15,13 +15,13 @@
 namespace stipple::parameters {
 namespace {
 
-/// The smaller probability; 0, whose score is infinite, is replaced by the smallest random number.
+/// The smaller probability, at least 1e-300; 2^-54 instead of 0, for which the score is infinite.
 double tail(const Share& share) {
     const double m = std::min(share.below, share.above);
     return m > 0 ? std::max(m, 1e-300) : 0x1p-54;
 }
 
-/// The nearest symmetric matrix whose eigenvalues are at least `least`, by the sum of squares.
+/// The nearest symmetric matrix (Frobenius norm) whose eigenvalues are at least `least`.
 std::vector<double> lifted(const std::vector<double>& matrix, std::size_t d, double least) {
     const auto [values, vectors] = jacobi_eigen(matrix, d);
     std::vector<double> out(d * d);

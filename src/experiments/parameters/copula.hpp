@@ -7,8 +7,8 @@
 //     Student    v_i = T_nu(t_i),      t_i = m_i + s_i T_(nu+i)^-1(u_i),
 //
 // where m_i and s_i^2 = L_ii^2 (nu + q_i) / (nu + i) are the parameters of Student's distribution
-// given the i preceding coordinates, and q_i is the sum of the squares of y over these, with L y =
-// t. Both are Rosenblatt's transformation: strata of the first coordinate are preserved, and an
+// given the i preceding coordinates, and q_i is the sum of y_j^2 over these, where L y = t.
+// Both are Rosenblatt's transformation: strata of the first coordinate are preserved, and an
 // inverse exists.
 //
 // Shape   d coordinates. Each is stored as two probabilities, p below and q = 1 - p above it, so
@@ -51,14 +51,14 @@ class Copula {
     [[nodiscard]] double density(std::span<const Share> row) const;
 
   private:
-    /// Distribution of score i given the preceding ones: score = middle + L_ii y_i, where y_i /
-    /// spread has the distribution laws_[i] (or normal).
+    /// Distribution of score i, given the preceding ones: score i is middle + L_ii y_i, and y_i /
+    /// spread is normal or, for Student's copula, has the distribution laws_[i].
     struct Place {
         double middle;
         double spread;
     };
     [[nodiscard]] Place place(std::size_t i, std::span<const double> y, double squares) const;
-    /// Converts probabilities to scores and back, given so many preceding coordinates.
+    /// Converts probabilities to scores and back; `given` coordinates precede and are known.
     [[nodiscard]] double score(const Share& share, std::size_t given) const;
     [[nodiscard]] Share share(double score, std::size_t given) const;
 
@@ -75,8 +75,8 @@ double score_correlation(double spearman);
 /// Whether a symmetric matrix with ones on its diagonal has a Cholesky factor.
 bool is_correlation(const std::vector<double>& matrix, std::size_t d);
 
-/// The nearest correlation matrix, by the sum of squares, whose eigenvalues are at least about
-/// 1e-6, so that it has a Cholesky factor.
+/// The nearest correlation matrix (Frobenius norm) with eigenvalues of at least about 1e-6, so that
+/// it has a Cholesky factor.
 ///
 /// Source  N. J. Higham, IMA J. Numer. Anal. 22 (2002) 329-343, doi:10.1093/imanum/22.3.329.
 std::vector<double> nearest_correlation(std::vector<double> matrix, std::size_t d);

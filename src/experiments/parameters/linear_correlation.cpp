@@ -19,7 +19,7 @@ namespace {
 
 using Increment = Scored::Increment;
 
-constexpr double farthest = 37;  // Phi(-37) is about 1e-300
+constexpr double farthest = 37;  // largest score; Phi(-37) is about 1e-300
 constexpr double panel = 1.0 / 8;
 
 double normal_density(double z) {
@@ -41,7 +41,7 @@ double by_gauss(double low, double high, const F& f) {
     return half * sum;
 }
 
-/// Integral of f with respect to the normal distribution. Between cuts, f must be smooth.
+/// Mean of f over the normal distribution; f must be smooth between consecutive `cuts`.
 template <class F>
 double normal_mean(std::vector<double> cuts, const F& f) {
     for (double z = -farthest; z <= farthest; z += 0.5) cuts.push_back(z);
@@ -144,7 +144,7 @@ class Part {
     [[nodiscard]] double total() const { return integral(1); }
     [[nodiscard]] double end_slope() const {
         double sum = 0;
-        for (const double c : series_) sum += c;  // each polynomial is 1 at the end
+        for (const double c : series_) sum += c;  // all Legendre polynomials are 1 at the end
         return sum;
     }
     /// The angle at which the integral from the interval's start is `value`.
@@ -174,7 +174,7 @@ class Part {
         }
         return p;
     }
-    /// Integral of S from the interval's start to x, in the interval scaled to [-1, 1].
+    /// Integral of S from the interval's start to x; -1 and 1 denote the interval's ends.
     [[nodiscard]] double integral(double x) const {
         const auto p = legendre(x);
         double sum = series_[0] * (x + 1);
@@ -344,7 +344,7 @@ double Scored::scores_for(const Scored& other, double r) const {
              extreme(other, -1), extreme(other, 1));
     const double size = deviation_ * other.deviation_;
     const double wanted = std::abs(r);
-    // Each octave halves the cosine and the kernels' width, down to the increments' resolution.
+    // Each octave halves the angle's cosine. Only exact steps resolve more than four octaves.
     const int octaves = stepped_ && other.stepped_ ? 21 : 4;
     double low = 0, reached = 0, rate = 0;
     for (int octave = 0; octave < octaves; ++octave) {
@@ -362,7 +362,7 @@ double Scored::scores_for(const Scored& other, double r) const {
         rate = part.end_slope();
         low = high;
     }
-    // Up to pi / 2 the covariance is a power of the remaining angle, with the same slope.
+    // Approximates the rest, up to pi / 2, by a power of the remaining angle with slope `rate`.
     const double width = std::numbers::pi / 2 - low;
     const double power = std::max(1.0, rate * width / (end - reached));
     const double left = exponential(logarithm((end - wanted) / (end - reached)) / power) * width;

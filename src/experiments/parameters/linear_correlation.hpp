@@ -6,10 +6,10 @@
 //     Cov(X, Y) = integral over [0, t] of S,
 //     S(t) = 1 / (2 pi) sum of dX(z) dY(w) exp(-(z^2 - 2 z w sin t + w^2) / (2 cos^2 t)),
 //
-// where the sum is over the increments of X and Y: the steps of a discrete distribution; otherwise
-// at the nodes of Gauss's rule on panels, which are halved until the rule yields the change of X
-// over the panel. Many increments within a fraction of cos t are replaced by four with the same
-// moments. At the ends, t = +-pi / 2, the covariance is an integral over z alone.
+// where the sum is over the increments of X and Y. These are the steps of a discrete distribution;
+// for others they are at the nodes of Gauss's rule on panels, halved until the rule yields X's
+// change over each panel. Increments within a fraction of cos t are replaced by four with the
+// same moments. At the ends, t = +-pi / 2, the covariance is an integral over z alone.
 //
 // Cost    some thousand quantiles per parameter, and 1 to 30 ms per pair.
 // Promise correlations within 1e-9 for steps, 1e-6 for other distributions that are smooth where
@@ -51,10 +51,10 @@ class Scored {
     void take_cells();
     void take_panels();
     void add_panel(double low, double high, double x_low, double x_high);
-    /// Value or mean rank at the score z; at(z) is relative to the mean.
+    /// number(z) is the value or mean rank at the score z; at(z) is the same minus the mean.
     [[nodiscard]] double at(double z) const;
     [[nodiscard]] double number(double z) const;
-    /// Increments reduced for kernels that are at least `width` wide.
+    /// Increments, at most four in each interval of length `width`, with the same moments.
     [[nodiscard]] std::vector<Increment> gathered(double width) const;
 
     MarginalPtr law_;

@@ -65,7 +65,7 @@ class Place {
         if (!value_.is_string()) refuse(expected);
         return value_.get<std::string>();
     }
-    /// Word of a key, which must be one of `words`; empty if the key is missing.
+    /// Value of the key, which must be one of `words`; empty if the key is missing.
     [[nodiscard]] std::string choice(const char* key, const std::vector<std::string>& words) const {
         const auto place = find(key);
         if (!place) return {};
@@ -453,7 +453,7 @@ class CorrelationReader {
                 "ties",
                 student ? "" : "give \"spearman\"");
         if (kind == "kendall") return std::copysign(cos_sin_turns(std::abs(r) / 4).sin, r);
-        // r is the correlation of the conditional probability if a parameter depends on others.
+        // For a parameter that depends on others, r is that of its conditional probability.
         if (kind == "spearman" && (!a || !b || !discrete)) return score_correlation(r);
         if (!a || !b)
             pair.refuse("the correlation of a parameter that depends on others cannot be computed");
@@ -495,7 +495,7 @@ class CorrelationReader {
     std::vector<double> matrix_;  ///< correlations of the scores
     std::vector<double> spearman_;
     std::vector<bool> given_;
-    bool ranks_only_ = true;  ///< whether the scores have the parameters' rank correlations
+    bool ranks_only_ = true;  ///< whether scores and parameters have equal rank correlations
     std::vector<std::shared_ptr<const Scored>> numbers_;  ///< per parameter; null until needed
     std::vector<std::shared_ptr<const Scored>> ranks_;
 };

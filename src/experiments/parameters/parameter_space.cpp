@@ -18,7 +18,7 @@ double place(const Marginal& law, const Share& share) {
     return std::isfinite(x) ? x : law.quantile(0x1p-54, tail);
 }
 
-/// Probabilities below and above x or, if it is discrete, the middle of its interval.
+/// Probabilities below and above x; for a discrete x, half of its own probability is in each.
 Share share_of(const Marginal& law, double x) {
     const Share at{law.probability(x, Tail::lower), law.probability(x, Tail::upper)};
     if (!law.discrete()) return at;
@@ -33,7 +33,7 @@ bool hold(const std::vector<Expression>& constraints, std::span<const double> ro
     });
 }
 
-/// Range of a parameter that may join a polytope; nullopt for others.
+/// Range of a parameter that can be a coordinate of the polytope; nullopt if it cannot.
 using UniformRange = std::optional<std::pair<double, double>>;
 
 /// Half-spaces of an affine constraint; nullopt if it is not affine or has too many variables.

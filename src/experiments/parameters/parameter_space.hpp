@@ -86,7 +86,7 @@ class ParameterSpace {
     [[nodiscard]] const std::optional<Reordering>& reordering() const { return reordering_; }
     [[nodiscard]] std::vector<std::string> names() const;
     [[nodiscard]] Levels levels() const;
-    /// Whether parameter k is the quantile of cube coordinate k, unchanged by a copula.
+    /// Whether parameter k is a quantile at cube coordinate k itself, unchanged by a copula.
     [[nodiscard]] bool takes_own(std::size_t k) const { return !copula_ || copula_->leaves(k); }
     /// Whether the distribution of some parameter depends on other parameters.
     [[nodiscard]] bool conditional() const { return conditional_; }
@@ -98,7 +98,7 @@ class ParameterSpace {
     void to_cube(std::span<const double> row, std::span<double> cube) const;
     /// Whether every parameter has a possible value and all constraints hold.
     [[nodiscard]] bool contains(std::span<const double> row) const;
-    /// Density without nonlinear constraints and reordering; a probability if discrete.
+    /// Density that ignores nonlinear constraints and reordering; a probability if discrete.
     [[nodiscard]] double density(std::span<const double> row) const;
 
   private:

@@ -11,8 +11,8 @@
 // it, and no point is dropped. Otherwise points are rejected, which keeps neighbours and strata.
 //
 // Shape   one unit coordinate per parameter.
-// Strata  without a copula, xi is used directly, even if sets are reordered; with one, strata of
-//         the first joined parameter are preserved. On a polytope, the first xi selects a simplex.
+// Strata  preserved without a copula, even if sets are reordered; with a copula, for the first
+//         joined parameter. On a polytope, the first unit coordinate selects a simplex.
 // Cost    that of the quantiles, and d^2 / 2 multiplications for a copula; about 50 ns per
 //         constraint; for a polytope, about 20 ns a coordinate.
 // Promise no point violates a constraint. The inverse of an outcome is the middle of its interval.
@@ -57,7 +57,7 @@ class ParameterDomain final : public NamedDomain {
         axes_ = each_->domain().get();
     }
 
-    /// Mapping of each parameter alone; null unless only linear constraints join them.
+    /// Mapping of each parameter alone; null unless at most linear constraints join parameters.
     const Mapping* by_axes() const {
         return axes_ != nullptr && !space_.has_copula() && space_.density_known() ? each_.get()
                                                                                   : nullptr;
@@ -156,7 +156,7 @@ class ParameterDomain final : public NamedDomain {
                  "ranges");
     }
 
-    /// Bounding box of random images; of fewer if there are many parameters.
+    /// Bounding box of the images of 64 to 4096 random points; fewer for many parameters.
     Box box_of_images() const {
         const std::size_t d = dimension();
         const std::size_t count = std::clamp<std::size_t>(0x100000 / d, 64, 4096);

@@ -161,7 +161,7 @@ class ScoredSet {
     std::vector<double> scores_;                   ///< scores of the ranks 0, 1, ...
     std::vector<Ranks> ranks_;                     ///< ranks of the points, by coordinate
     std::vector<std::vector<double>> numbers_;     ///< numbers in ascending order, by coordinate
-    std::vector<std::vector<double>> mean_ranks_;  ///< of numbers_, relative to the middle rank
+    std::vector<std::vector<double>> mean_ranks_;  ///< mean ranks of equal numbers, centred
     std::vector<std::uint8_t> tied_;
 };
 
@@ -196,7 +196,7 @@ class Corrections {
     double next(std::size_t j, std::size_t k, double lacks) {
         const double now = asked_[j * d_ + k];
         if (!set_.tied(j) && !set_.tied(k)) return now + lacks;
-        // Factor for the error: with ties, ranks change more, or less, than scores.
+        // Errors are multiplied by `step`, since with ties ranks change more, or less, than scores.
         double& step = step_[j * d_ + k];
         double& before = before_[j * d_ + k];
         if (std::abs(lacks) > std::abs(before) / 2 && before != 0)
@@ -214,7 +214,7 @@ class Corrections {
     std::vector<double> before_;  ///< error before the last correction
 };
 
-/// Matrix Q of reordering.hpp. @throws Error(input) if there is none
+/// Matrix Q of reordering.hpp. @throws Error(input) if E has no well-conditioned factor
 std::vector<double> factor_of(const ScoredSet& set, const std::vector<std::string>& names) {
     const std::size_t d = names.size();
     for (std::size_t k = 0; k < d; ++k)

@@ -87,9 +87,9 @@ std::vector<double> column_of(const PointSet& points, std::size_t k) {
 }
 
 struct PairSums {
-    double powers = 0;       ///< terms (minimum / distance)^p
-    double reciprocals = 0;  ///< terms 1 / distance^2
-    /// Terms 1 / prod (4 difference)^2; the factor 4 keeps the product in range.
+    double powers = 0;       ///< sum of (minimum / distance)^p
+    double reciprocals = 0;  ///< sum of 1 / distance^2
+    /// Sum of 1 / prod (4 difference)^2; the factor 4 avoids underflow of the product.
     double products = 0;
 
     PairSums& operator+=(const PairSums& other) {
@@ -163,7 +163,7 @@ struct AtAxes {
     std::vector<std::size_t> axes = {};
 };
 
-/// Adds a value and, counted from 1, its axes.
+/// Adds the value and the axes, numbered from 1.
 void add_at(Report& report, const char* name, const char* name_of_axes, const AtAxes& at) {
     Report::Integers numbers;
     for (const std::size_t k : at.axes) numbers.push_back(static_cast<std::int64_t>(k + 1));
@@ -171,7 +171,7 @@ void add_at(Report& report, const char* name, const char* name_of_axes, const At
     report.add(name_of_axes, std::move(numbers));
 }
 
-/// Adds correlations of coordinates that are not constant, if there are two such coordinates.
+/// Adds the correlations of all coordinates that vary, if there are at least two.
 void add_correlations(Report& report, const PointSet& points) {
     const std::size_t n = points.count();
     std::vector<std::size_t> axes;
@@ -284,7 +284,7 @@ std::vector<double> information(std::span<const double> coded, std::size_t dimen
     return m;
 }
 
-/// Replaces f, whose elements before `first` are 0, by L^-1 f; returns its squared length.
+/// Replaces f by L^-1 f, where L is `factor`; returns the squared length. f is 0 before `first`.
 double solve(std::span<const double> factor, std::size_t first, std::vector<double>& f) {
     const std::size_t p = f.size();
     double squares = 0;
@@ -309,7 +309,7 @@ double trace_of_inverse(std::span<const double> factor, std::size_t p, const Run
     return trace;
 }
 
-/// Largest f^T M^-1 f over `count` points x; place(i, x) writes the i-th to x.
+/// Largest f(x)^T M^-1 f(x) over `count` points x; place(i, x) writes point i to x.
 template <class Place>
 double largest_variance(std::span<const double> factor, std::size_t dimension, Model kind,
                         std::uint64_t count, const Place& place, const RunContext& run) {

@@ -5,7 +5,7 @@
 //
 // The interval's ends are quantiles of the resampled statistics, at the levels Phi(-+ sqrt(n / (n -
 // 1)) t_(n-1)) that make it Student's interval for n rows instead of the normal one. Their
-// distances from the statistic are stretched by 1 + caution / n for what resamples do not show: a
+// distances from the statistic are multiplied by 1 + caution / n for errors that resamples miss: a
 // few rows may hide skewness, and rows of a low-discrepancy base may be alike in some coordinates.
 //
 // Cost    resamples x rows x terms additions; 0.4 s for 1000 x 2^14 x 24 on one core.

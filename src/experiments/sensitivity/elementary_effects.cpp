@@ -69,8 +69,8 @@ Layout find_moves(const PointSet& design, bool star) {
     return {.group = group, .star = star};
 }
 
-/// Terms EE - c, |EE|, (EE - c)^2 and 1 for each input, one row per trajectory, with mean effect c;
-/// 0 if the input did not move.
+/// Terms EE - c, |EE|, (EE - c)^2 and 1 for each input, one row per trajectory; all 0 if the input
+/// did not move. `centre` has the mean effect c of each input.
 struct EffectTable {
     TermTable terms;
     std::vector<double> centre;

@@ -32,7 +32,7 @@ class Spectrum {
             turns_[s] = cos_sin_turns(static_cast<double>(s) / static_cast<double>(n));
     }
 
-    /// S and ST of outputs with mean 0; both 0 if they are constant.
+    /// S and ST of outputs with mean 0; both 0 if the outputs are constant.
     [[nodiscard]] std::pair<double, double> shares(std::span<const double> y,
                                                    const RunContext& run) const {
         double all = 0;
@@ -119,7 +119,7 @@ Layout find_curves(const PointSet& design, std::optional<std::size_t> asked,
         return {.trouble = fmt::format("curves have {} rows, but {} harmonics need {}", n,
                                        harmonics, 4 * harmonics * harmonics + 1)};
     const Spectrum spectrum(n, harmonics);
-    // For M = 4 the fraction is 0.998 for a triangle wave; it is smaller for discrete inputs.
+    // own_share() is 0.998 for a triangle wave and M = 4; it is smaller for discrete inputs.
     constexpr double own_least = 0.7;
     constexpr double others_most = 0.1;
     for (std::size_t i = 0; i < k; ++i)

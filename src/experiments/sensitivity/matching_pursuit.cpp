@@ -71,7 +71,7 @@ class Pursuit {
         return candidates_.values.data() + candidates_.rows[i] * candidates_.columns;
     }
 
-    /// Sum over the rows of term(value, residual), for each column.
+    /// Sums of term(value, residual) over the rows, one sum per column.
     template <class Term>
     std::vector<double> column_sums(const Term& term) const {
         std::vector<double> sums(candidates_.columns, 0.0);
@@ -120,7 +120,7 @@ class Pursuit {
         return true;
     }
 
-    /// Appends the basis vector q; its column of R consists of r and norm.
+    /// Appends the basis vector q; its column of R consists of r and, on the diagonal, norm.
     void append(std::vector<double> q, std::span<const double> r, double norm) {
         std::vector<double> column(r.size() + 1, 0.0);
         for (std::size_t s = 0; s < r.size(); ++s)
@@ -135,7 +135,7 @@ class Pursuit {
         along_.push_back(along);
     }
 
-    /// Selection criterion of the current fit (see above).
+    /// Selection criterion of the current fit, relative to the variance; see the file's header.
     [[nodiscard]] double error() const {
         const auto n = static_cast<double>(n_);
         const auto terms = static_cast<double>(chosen_.size());
@@ -157,7 +157,7 @@ class Pursuit {
     std::vector<double> leverage_;
     std::vector<bool> usable_;
     std::vector<double> norms_;  ///< squared norms of the columns
-    double whole_ = 0;           ///< sum of squares about the mean
+    double whole_ = 0;           ///< sum of squares of z about its mean
     double trace_ = 0;           ///< trace of the inverse of the Gram matrix
     double least_ = 1;
     std::vector<std::size_t> chosen_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Declarations of the analyzer's parts: inputs and results; reading of the runs; methods; tools of
-// methods. Functions are in sources of the same name, those without one in effects.cpp.
+// Declarations for sensitivity.cpp: inputs and results, reading of runs, methods and their tools. A
+// function is in the source file of its method or task; those without one are in effects.cpp.
 #pragma once
 
 #include <cstddef>
@@ -78,12 +78,12 @@ struct Effects {
     std::vector<IndexKind> kinds = {};
     std::vector<PairIndex> pairs = {};
     Report details = {};            ///< further results of the method
-    std::string no_intervals = {};  ///< why intervals are left out; empty if they are given
+    std::string no_intervals = {};  ///< reason for missing intervals; empty if none is missing
     /// Reason for each input without indices; may be empty.
     std::vector<std::string> missing = {};
 };
 
-/// Groups of a design's rows for a method; if the rows do not fit, the reason.
+/// Groups of rows that a method needs; if the rows do not fit, `trouble` is the reason.
 struct Layout {
     std::size_t group = 0;  ///< number of consecutive rows in a group
     /// Morris: every row of a group differs from its first row, not from the previous one.
@@ -110,8 +110,8 @@ struct Runs {
 /// provenance of the table or of the design. If neither has a domain, they are all columns of the
 /// design, or all of the table except the last. All other columns of the table are outputs, except
 /// copies of inputs (same name and numbers). Notes report assumptions and unused columns.
-/// @throws Error(input) for different numbers of rows, for a column with the name of an input and
-///         other numbers, and for words; Error(usage) for columns that do not exist
+/// @throws Error(input) if numbers of rows differ, if a column has the name of an input but other
+///         numbers, or if an output contains words; Error(usage) if a column does not exist
 Runs runs_of(const PointSet& table, const ColumnsAsked& asked, const RunContext& run);
 
 // Methods for structured designs, with functions that check whether rows form such a design. Runs
@@ -125,13 +125,13 @@ Layout find_trajectories(const PointSet& design);
 Effects elementary_effects(const Layout& layout, const Inputs& inputs, const Response& response,
                            const Setting& setting, const RunContext& run);
 
-/// Checks that on each curve the ranks of its own input have nearly all their variance at harmonics
-/// of w, and those of the other inputs hardly any.
-/// @param harmonics M; if empty, that of the first curve
+/// Checks that on each curve the ranks of its own input have nearly all their variance at the
+/// curve's frequency and its harmonics, and those of the other inputs hardly any.
+/// @param harmonics number M of harmonics; if empty, derived from the first curve
 Layout find_curves(const PointSet& design, std::optional<std::size_t> harmonics,
                    const RunContext& run);
 
-/// Indices by extended FAST. @throws Error(input) for failed runs: gaps leave no spectrum
+/// Indices by extended FAST. @throws Error(input) if a run failed: a spectrum needs all runs
 Effects fourier_amplitudes(const Layout& layout, const Inputs& inputs, const Response& response,
                            const RunContext& run);
 
@@ -152,7 +152,7 @@ std::optional<Effects> polynomial_chaos(const Inputs& inputs, const Response& re
 /// chance; otherwise 0. Also 0 for full factorials, and if there are too many rows to examine.
 double share_of_neighbors(const PointSet& points, const RunContext& run);
 
-/// Warns of the two inputs with the largest rank correlation if it refutes independence.
+/// Warns of the two inputs with the largest rank correlation if it is too large for independence.
 void note_dependence(const Inputs& in, const RunContext& run);
 
 /// Table with one row of terms per sample.
@@ -166,7 +166,7 @@ struct TermTable {
 /// Computes statistics from the means of the terms.
 using Statistics = std::function<void(std::span<const double> means, std::span<double> values)>;
 
-inline constexpr std::size_t least_rows = 10;  ///< fewer rows of terms give no intervals
+inline constexpr std::size_t least_rows = 10;  ///< smallest number of rows for intervals
 /// Returns the first `count` statistics, computed from all rows, with their bootstrap intervals.
 std::vector<Index> bootstrapped(const TermTable& table, std::size_t count,
                                 const Statistics& statistics, double caution,
@@ -187,7 +187,7 @@ struct Candidates {
 };
 
 struct SparseFit {
-    double error = 0;  ///< value of the criterion, relative to the mean square of z
+    double error = 0;  ///< selection criterion, relative to the variance of z
     double constant = 0;
     std::vector<std::size_t> chosen = {};  ///< columns, in the order of their choice
     std::vector<double> coefficients = {};

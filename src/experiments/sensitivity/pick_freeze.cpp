@@ -26,7 +26,7 @@
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-/// Whether a row equals `whole` except for coordinate i, which is that of `other`.
+/// Whether a row equals `whole`, except for coordinate i, which must be that of `other`.
 bool is_mixed(std::span<const double> row, std::span<const double> whole,
               std::span<const double> other, std::size_t i) {
     for (std::size_t j = 0; j < row.size(); ++j)
@@ -51,9 +51,9 @@ std::size_t first_unfit(const PointSet& design, std::size_t group) {
     return moves ? design.count() : 0;
 }
 
-/// Whether the first and last rows of all groups differ in every coordinate although coordinates
-/// have few values, as in a factorial design. For independent rows, the probability of this is
-/// below exp(-most).
+/// Whether the first and last rows of all groups differ in every coordinate, as in a factorial
+/// design, although coordinates have so few values that independent rows would differ with a
+/// probability below exp(-2).
 bool is_factorial(const PointSet& design, std::size_t group) {
     constexpr double most = 2;
     const auto groups = design.count() / group;
@@ -74,8 +74,8 @@ bool is_factorial(const PointSet& design, std::size_t group) {
     return expected >= most;
 }
 
-/// Appends the terms of a base row with the outputs f: those of V, then those of first, total and
-/// second order indices.
+/// Appends the terms of a base row with the outputs f: those of the mean and of V, then those of
+/// first, total and second order indices.
 void append_terms(std::span<const double> f, std::size_t k, std::vector<double>& terms) {
     const double a = f.front();
     const double b = f.back();
@@ -93,7 +93,7 @@ void append_terms(std::span<const double> f, std::size_t k, std::vector<double>&
 /// Mean, variance and indices, from the means of the terms of append_terms(); NaN if the outputs in
 /// the first and last rows of groups differ only by rounding errors.
 void indices_of(std::span<const double> means, std::size_t k, std::span<double> values) {
-    constexpr double rounding = 1e-12;  // relative to the largest output, scaled to 1
+    constexpr double rounding = 1e-12;  // variance from rounding, for outputs scaled to 1
     const double variance = means[1] - means[0] * means[0];
     if (!(variance > rounding)) {
         std::ranges::fill(values, none);

@@ -57,10 +57,10 @@ struct Polynomials {
     std::vector<double> values = {};
 };
 
-/// A product of polynomials: pairs of an input, ascending, and its degree, at least 1.
+/// A product of polynomials, as pairs of input and degree: ascending inputs, degrees at least 1.
 using BasisTerm = std::vector<std::pair<std::size_t, std::size_t>>;
 
-/// Appends the products of `begun` with polynomials of inputs from `from` on, of degree `left`.
+/// Appends all products of `begun` with terms of degree `left` in the inputs from `from` on.
 void append_terms_of_degree(BasisTerm& begun, std::size_t from, std::span<const Polynomials> inputs,
                             std::size_t left, std::vector<BasisTerm>& terms) {
     if (left == 0) return terms.push_back(begun);
@@ -84,7 +84,7 @@ struct Distribution {
     }
 };
 
-/// @param runs for each run the index of its value
+/// @param runs index of each run's value in `values`
 Distribution distribution_of(const std::vector<double>& values, std::span<const std::size_t> runs) {
     Distribution out{.x = {}, .weight = std::vector<double>(values.size())};
     for (const std::size_t i : runs) ++out.weight[i];
@@ -139,7 +139,7 @@ Polynomials sample_polynomials(std::span<const double> x, std::size_t max_degree
     std::vector<double> values(x.begin(), x.end());
     std::ranges::sort(values);
     values.erase(std::unique(values.begin(), values.end()), values.end());
-    std::vector<std::size_t> runs;  // for each run the index of its value
+    std::vector<std::size_t> runs;  // index of each run's value
     for (const double value : x)
         runs.push_back(
             static_cast<std::size_t>(std::ranges::lower_bound(values, value) - values.begin()));
@@ -218,7 +218,7 @@ struct Fold {
 
     [[nodiscard]] bool is_settled(std::size_t next_degree) const {
         constexpr double enough = 1e-6;
-        constexpr std::size_t patience = 3;  // since even and odd degrees may alternate
+        constexpr std::size_t patience = 3;  // since only even, or only odd, degrees may help
         return degree > 0 && (fit.error < enough || next_degree > degree + patience);
     }
 };
@@ -332,7 +332,7 @@ double mean_of(std::span<const double> values) {
 struct Judgement {
     bool known = false;  ///< whether the inputs' distributions are known
     std::vector<double> error;
-    /// Per run the term of V, or the squared output if the distributions are unknown.
+    /// Per run the term of V or, if the distributions are unknown, the squared centred output.
     std::vector<double> moving = {};
     double variance = 0;  ///< V, the variance of the output
     double q2 = 0;
@@ -356,7 +356,7 @@ Judgement judged(std::span<const Fold> folds, std::span<const double> z, bool kn
     return out;
 }
 
-/// Standard error of mean(values) / V.
+/// Standard error of `ratio`, which is mean(values) / V.
 double error_of_ratio(std::span<const double> values, double ratio, const Judgement& judgement) {
     std::vector<double> rest(values.begin(), values.end());
     for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= ratio * judgement.moving[i];
@@ -412,8 +412,8 @@ bool looks_uniform(std::span<const double> u, double errors) {
     return std::abs(sums[1]) <= most && std::abs(sums[2]) <= most;
 }
 
-/// Legendre polynomials for inputs that are known to be uniform or look uniform, otherwise
-/// polynomials of the values; and a second basis, of the ranks, if values and ranks differ enough.
+/// Legendre polynomials for inputs that look uniform, otherwise polynomials of the values; and a
+/// second basis, of the ranks, if values and ranks differ enough.
 std::vector<Basis> bases_of(const Inputs& inputs, std::span<const std::size_t> runs,
                             std::size_t degree) {
     const UnitInputs unit = unit_inputs(inputs);

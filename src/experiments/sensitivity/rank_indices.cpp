@@ -21,9 +21,9 @@
 //
 //     (n V se)^2 = n var(2 z_j m_j - z_g^2 - S_i z_j^2) + sum 2 n_g / (n_g - 1) s_g^4,
 //
-// where the share of chance is subtracted from z_g^2. The first term is the influence of run j on
-// the index; the second is due to pairs of runs. The upper end is extended by the variance of E(f |
-// x_i) that windows may hide. It is estimated by the loss with windows of twice the size,
+// where s_g^2 / n_g, due to chance, is subtracted from z_g^2. The first term is the influence of
+// run j on the index; the second is due to pairs of runs. The upper end is extended by the variance
+// of E(f | x_i) that windows may hide. It is estimated by the loss with windows of twice the size,
 //
 //     sum_g (n_g n_(g+1) (z_g - z_(g+1))^2 - n_(g+1) s_g^2 - n_g s_(g+1)^2)
 //         / (n_g + n_(g+1)) / (n V),
@@ -67,8 +67,8 @@ struct Window {
     bool constant;        ///< whether x is constant in the window
 };
 
-/// Divides runs into windows of about equal sizes, at least two and `least`; runs with equal
-/// inputs are in the same window.
+/// Divides runs into windows of similar sizes, of `least` runs or more; runs with equal inputs are
+/// in the same window.
 std::vector<Window> windows_of(std::span<const Ordered> runs, std::size_t least) {
     std::vector<Window> windows;
     for (std::size_t first = 0, last = 0; first < runs.size(); first = last) {
@@ -94,7 +94,7 @@ std::vector<Window> windows_of(std::span<const Ordered> runs, std::size_t least)
     return windows;
 }
 
-/// The smaller one of the two estimates of chance.
+/// `chance` in the formula of S_i: the smaller one of its two estimates.
 double chance_of(std::span<const Window> windows) {
     double independent = 0;
     for (const Window& window : windows) independent += window.variance;
@@ -108,7 +108,7 @@ double chance_of(std::span<const Window> windows) {
     return std::min(independent, seen * all / (all - 2));
 }
 
-/// Loss of sum n_g z_g^2 if windows had twice the size.
+/// Loss of sum n_g z_g^2 if neighboring windows were joined, summed over both ways; at least 0.
 double hidden_in(std::span<const Window> windows) {
     double sum = 0;
     for (std::size_t g = 1; g < windows.size(); ++g) {

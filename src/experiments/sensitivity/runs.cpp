@@ -70,7 +70,7 @@ struct Known {
     Names names;
 };
 
-/// Domain of the inputs from the provenance; without names if the user gave the domain.
+/// Domain from the provenance; without names if neither the domain nor a generator gives them.
 Known known_inputs(const Provenance& told, std::size_t inputs, const RunContext& run) {
     const bool made = !told.generator.empty();
     if (told.domain.empty() || (told.domain == "unit-cube" && !made)) return {};
@@ -105,7 +105,7 @@ Numbers known_columns(const Known& known, const Columns& from) {
 }
 
 /// Columns with the domain's coordinates; empty if some are missing. @throws Error(usage) if the
-/// domain has no names and another dimension
+/// domain has no names and not as many coordinates as there are `columns`
 Numbers coordinates_of(const Known& known, const Columns& from, const Numbers& columns,
                        const RunContext& run) {
     const std::size_t k = known.domain->dimension();
@@ -120,7 +120,7 @@ Numbers coordinates_of(const Known& known, const Columns& from, const Numbers& c
     return {};
 }
 
-/// Whether the density is a product over coordinates: two points that exchange one then keep the
+/// Whether the coordinates are independent: two points that exchange a coordinate then keep the
 /// product of their densities.
 bool independent(const Domain& domain, const PointSet& points) {
     constexpr std::size_t most = 100;
@@ -135,9 +135,9 @@ bool independent(const Domain& domain, const PointSet& points) {
             try {
                 const double before = std::log(domain.density(x)) + std::log(domain.density(y));
                 const double after = std::log(domain.density(a)) + std::log(domain.density(b));
-                if (!std::isfinite(before)) continue;  // density infinite at the end of a range
+                if (!std::isfinite(before)) continue;  // density 0 or infinite, as at ends
                 if (!(std::abs(after - before) <= rounding * (1 + std::abs(before)))) return false;
-            } catch (const Error&) {  // unknown density, as with constraints
+            } catch (const Error&) {  // the density is unknown, as with constraints
                 return false;
             }
         }

@@ -118,7 +118,7 @@ Layout find_layout(const std::string& kind, const PointSet& points, const Settin
     return find_curves(points, setting.harmonics, run);
 }
 
-/// Warns if rows were made as a design that they do not form, or resemble a design.
+/// Warns if rows do not form the design that their generator makes, or if they resemble a design.
 void note_broken(const Inputs& in, const std::string& trouble, const RunContext& run) {
     if (!trouble.empty())
         return run.notify(
@@ -162,7 +162,7 @@ Plan plan_of(const Inputs& in, const std::string& asked, const Setting& setting,
     return {};
 }
 
-/// Indices by chaos or, if no polynomial predicts well enough, by ranks, with the reason.
+/// Indices by chaos or, if no polynomial predicts well enough, by ranks; adds the reason.
 Effects of_any_design(std::string& chosen, const Inputs& in, const Response& out,
                       const Setting& setting, const RunContext& run) {
     constexpr double enough = 0.8;
@@ -283,7 +283,7 @@ Report report_of_none(const Response& out, const std::string& why) {
     return report.add("missing", why);
 }
 
-/// Checks that no option belongs only to unused methods. @throws Error(usage)
+/// Checks that each given option applies to a method that was used. @throws Error(usage)
 void check_options(const Values& options, const std::vector<std::string>& methods) {
     const auto require = [&](const auto& option, std::vector<std::string> of) {
         const bool used = std::ranges::find_first_of(methods, of) != methods.end();

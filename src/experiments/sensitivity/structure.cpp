@@ -14,7 +14,7 @@
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-/// Limit for the number of values to examine, which takes a second or less.
+/// Largest number of values to examine, which takes a second or less.
 constexpr double most_work = 1e8;
 
 struct Levels {
@@ -55,7 +55,7 @@ double share_of_neighbors(const PointSet& points, const RunContext& run) {
             if (c != j) equal *= levels[c].chance;
         neighbors += equal;
     }
-    // Sums of hashed coordinates: without that of j, they are equal if all others are equal.
+    // Rows agree except in coordinate j if the sums of their codes, without that of j, are equal.
     const auto code = [&](std::size_t i, std::size_t j) {
         return SplitMix64(std::bit_cast<std::uint64_t>(points[i][j] + 0.0) + j).next();
     };
