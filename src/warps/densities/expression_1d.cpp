@@ -33,7 +33,8 @@ namespace {
 
 constexpr Param<Text> density{
     {.name = "density",
-     .help = "Formula in x (stipple help formulas), not negative, of any integral: 'exp(-x)', 'x < "
+     .help = "Formula in x (stipple help formulas), not negative; its integral need not be 1: "
+             "'exp(-x)', 'x < "
              "0.5 ? 1 : 3'. It is evaluated at 65536 points or more; narrower features may be "
              "missed, unless --breaks locates them"}};
 constexpr Param<Numbers> range{{.name = "range", .fallback = "0,1", .help = "Range of x: a,b"}};

@@ -34,7 +34,8 @@ namespace {
 
 constexpr Param<Text> density{
     {.name = "density",
-     .help = "Formula in x and y (stipple help formulas), not negative, of any integral: 'x + y', "
+     .help = "Formula in x and y (stipple help formulas), not negative; its integral need not be "
+             "1: 'x + y', "
              "'x + y < 1 ? 1 : 0'. It is evaluated at 393 216 points or more: features that "
              "contain a disk 1/256 as wide as the ranges are found, with a mass right to 3 %; "
              "smaller ones may be missed"}};

@@ -30,9 +30,10 @@
 namespace stipple::warps::rejection {
 namespace {
 
-constexpr Param<Text> density{{.name = "density",
-                               .help = "Formula (stipple help formulas) in as many of x, y, z as "
-                                       "--bounds has ranges; not negative, of any integral"}};
+constexpr Param<Text> density{
+    {.name = "density",
+     .help = "Formula (stipple help formulas) in as many of x, y, z as "
+             "--bounds has ranges, not negative; its integral need not be 1"}};
 constexpr Param<double> bound{
     .name = "bound",
     .fallback = 1,
