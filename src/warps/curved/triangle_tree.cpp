@@ -52,7 +52,7 @@ Foot scaled_foot(const std::array<Vector3, 3>& corners, const Vector3& point) {
 
 Foot foot_on(const std::array<Vector3, 3>& corners, const Vector3& point) {
     double size = 0;  // of the edges, the coordinates of which may be far larger
-    for (const std::size_t k : {1, 2})
+    for (const std::size_t k : {1U, 2U})
         size = std::max(size, largest(minus(corners[k], corners[0])));
     const double unit = unit_for(size);
     if (unit > 0x1p-200 && unit < 0x1p200) return scaled_foot(corners, point);
