@@ -9,6 +9,7 @@
 #include "core/rng.hpp"
 #include "math/functions/distributions.hpp"
 #include "math/functions/incomplete_functions.hpp"
+#include "math/functions/powers.hpp"
 
 namespace stipple {
 namespace {
@@ -34,13 +35,11 @@ bool equal_but_for_rounding(double a, double b) {
 /// a - b, or 0 if they are equal except for rounding.
 double difference_of(double a, double b) { return equal_but_for_rounding(a, b) ? 0 : a - b; }
 
-/// A power of two near the largest magnitude: dividing by it keeps all digits, and the squares of
-/// the quotients neither overflow nor all vanish.
+/// Unit for the numbers: squares of their quotients by it neither overflow nor all vanish.
 double scale_of(std::span<const double> numbers) {
     double largest = 0;
     for (const double x : numbers) largest = std::max(largest, std::abs(x));
-    const bool usual = largest > 0 && std::isfinite(largest);
-    return usual ? std::ldexp(1, std::clamp(std::ilogb(largest), -1022, 1022)) : 1;
+    return unit_for(largest);
 }
 
 /// sqrt((a^2 + b^2 + ...) / divisor)

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/machine/wide.hpp"
+#include "math/functions/powers.hpp"
 #include "warps/line_domain.hpp"
 
 namespace stipple::warps {

@@ -65,6 +65,7 @@
 #include "math/densities/expression.hpp"
 #include "math/densities/quadrature.hpp"
 #include "math/functions/distributions.hpp"
+#include "math/functions/powers.hpp"
 #include "math/integrands/integrands.hpp"
 
 namespace stipple::analyzers::integration {
@@ -588,8 +589,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
 double root_mean_square(const std::vector<double>& numbers) {
     double largest = 0;
     for (const double x : numbers) largest = std::max(largest, std::abs(x));
-    if (largest == 0) return 0;
-    const double unit = std::ldexp(1.0, std::ilogb(largest));
+    const double unit = unit_for(largest);
     Tally squares;
     for (const double x : numbers) squares.add(x / unit * (x / unit));
     return std::sqrt(squares.mean()) * unit;

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "math/arithmetic/double_double.hpp"
+#include "math/functions/powers.hpp"
 
 namespace stipple::analyzers {
 namespace {
@@ -24,9 +25,9 @@ MomentSums::MomentSums(std::vector<double> about, std::uint64_t first, std::span
         double most = 0;
         for (std::size_t at = k; at < rows.size(); at += d)
             most = std::max(most, std::abs(rows[at] - about_[k]));
-        constexpr int usual = 128;  // sixth powers of 2^-128 to 2^128 fit doubles
-        const int exponent = most > 0 && std::isfinite(most) ? std::ilogb(most) : 0;
-        if (std::abs(exponent) > usual) unit_[k] = std::ldexp(1, std::clamp(exponent, -1021, 1021));
+        // Sixth powers of numbers between 2^-128 and 2^128 need no unit.
+        const double unit = unit_for(most);
+        if (unit < 0x1p-128 || unit > 0x1p128) unit_[k] = unit;
     }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "math/functions/powers.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace stipple {
@@ -39,6 +41,11 @@ std::uint64_t nearest_power(std::uint64_t value, std::size_t exponent) {
 std::uint64_t rounded_root(std::uint64_t value) {
     const std::uint64_t k = floor_root(value, 2);
     return value - k * k > k ? k + 1 : k;  // rounds up if value > (k + 1/2)^2 = k^2 + k + 1/4
+}
+
+double unit_for(double size) {
+    if (!(size > 0 && std::isfinite(size))) return 1;
+    return std::ldexp(1.0, std::clamp(std::ilogb(size), -1022, 1022));
 }
 
 double real_power_of(std::size_t base, std::size_t exponent) {

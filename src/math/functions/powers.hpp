@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Integer powers and roots of counts; integer powers of real numbers.
+// Integer powers and roots of counts; integer powers of real numbers; powers of 2 as units.
 #pragma once
 
 #include <cstddef>
@@ -24,6 +24,10 @@ inline double whole_power(double x, std::size_t exponent) {
         if (exponent % 2 == 1) power *= x;
     return power;
 }
+
+/// The largest power of 2 up to a size, between 2^-1022 and 2^1022; 1 if the size is 0 or not finite.
+/// Dividing numbers of this size by it keeps their digits, and their powers leave float64 no more.
+double unit_for(double size);
 
 /// base^exponent as a double.
 double real_power_of(std::size_t base, std::size_t exponent);

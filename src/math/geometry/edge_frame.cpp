@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "math/arithmetic/double_double.hpp"
+#include "math/functions/powers.hpp"
 
 namespace stipple {
 namespace {
@@ -42,7 +43,7 @@ EdgeFrame::EdgeFrame(const Vector3& corner, const ExactEdge& a, const ExactEdge&
     lengths_ = {length(a.high), length(b.high), length(minus(b.high, a.high))};
     const double longest = *std::ranges::max_element(lengths_);
     // Scaling by a power of 2 near the longest edge avoids overflow, underflow and rounding.
-    const double unit = longest > 1e-140 ? std::ldexp(1.0, std::ilogb(longest)) : 1;
+    const double unit = longest > 1e-140 ? unit_for(longest) : 1;
     const Vector3 e = times(a.high, 1 / unit);
     const Vector3 f = times(b.high, 1 / unit);
     const Vector3 n = exact_cross({e, times(a.low, 1 / unit)}, {f, times(b.low, 1 / unit)});

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "math/functions/powers.hpp"
+
 namespace stipple {
 namespace {
 
@@ -20,10 +22,6 @@ double skewness_of(double variance, double third) {
 }
 
 }  // namespace
-
-double unit_for(double length) {
-    return length > 0 && std::isfinite(length) ? std::ldexp(1.0, std::ilogb(length)) : 1;
-}
 
 PlaneMoments about_the_mean(const PlaneMoments& raw) {
     const auto [x, y] = raw.mean;

@@ -29,9 +29,6 @@ struct LineMoments {
     double unit = 1;  ///< a power of 2
 };
 
-/// The largest power of 2 up to a length; 1 if the length is 0 or not finite.
-double unit_for(double length);
-
 /// Central moments of a distribution on the plane, such as xxy = E (x - m_x)^2 (y - m_y).
 struct PlaneMoments {
     PlanePoint mean = {};

@@ -36,6 +36,7 @@
 #include "core/rng.hpp"
 #include "math/arithmetic/double_double.hpp"
 #include "math/densities/guide_table.hpp"
+#include "math/functions/powers.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "media/triangle_mesh.hpp"
 #include "warps/curved/placement.hpp"

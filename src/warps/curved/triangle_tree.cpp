@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "math/geometry/law_moments.hpp"
+#include "math/functions/powers.hpp"
 
 namespace stipple {
 namespace {
@@ -17,10 +17,6 @@ double place_on_edge(const Vector3& a, const Vector3& b, const Vector3& point) {
     const double square = dot(edge, edge);
     return square > 0 ? std::clamp(dot(minus(point, a), edge) / square, 0.0, 1.0) : 0.0;
 }
-
-}  // namespace
-
-namespace {
 
 /// foot_on() for coordinates whose fourth powers neither overflow nor underflow.
 Foot scaled_foot(const std::array<Vector3, 3>& corners, const Vector3& point) {

@@ -24,6 +24,7 @@
 
 #include "core/error.hpp"
 #include "math/densities/guide_table.hpp"
+#include "math/functions/powers.hpp"
 #include "warps/common_options.hpp"
 #include "warps/line_domain.hpp"
 
