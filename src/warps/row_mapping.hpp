@@ -88,11 +88,13 @@ template <class Known, class Method, std::size_t m>
     return xi;
 }
 
-/// Maps rows back into the cube, vectorized like map_rows(); false if a row is not in the domain.
+/// Maps rows back into the cube; false if a row is not in the domain. Its loop is like that of
+/// map_rows(), with one version: wider vectors would make it 1.2 times as fast, and the program
+/// 200 kB larger.
 template <class Known, class Method>
-STIPPLE_WIDE [[gnu::flatten]] bool map_rows_back(const Known& domain, const Method& method,
-                                                 std::span<const double> image,
-                                                 std::span<double> cube) {
+STIPPLE_LOOPS [[gnu::flatten]] bool map_rows_back(const Known& domain, const Method& method,
+                                                  std::span<const double> image,
+                                                  std::span<double> cube) {
     constexpr std::size_t d = ArityOf<Method>::cube;
     constexpr std::size_t m = ArityOf<Method>::image;
     std::array<std::array<double, rows_at_once>, d> columns;
