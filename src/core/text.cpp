@@ -36,9 +36,9 @@ std::optional<std::int64_t> scaled(std::string_view text, double factor) {
 std::optional<std::int64_t> power(std::string_view base_text, std::string_view exponent_text) {
     const auto base = parse_whole<std::int64_t>(base_text);
     const auto exponent = parse_whole<int>(exponent_text);
-    if (!base || !exponent || *exponent < 0) return std::nullopt;
-    const bool grows = *base > 1 || *base < -1;  // else the exponent's parity decides
-    const int factors = grows ? *exponent : std::min(*exponent, 2 - *exponent % 2);
+    const bool negative = base_text.starts_with('-');  // -2^2: a formula, whose value is -4
+    if (negative || !base || !exponent || *exponent < 0) return std::nullopt;
+    const int factors = *base > 1 ? *exponent : std::min(*exponent, 1);
     std::int64_t value = 1;
     for (int i = 0; i < factors; ++i)
         if (__builtin_mul_overflow(value, *base, &value)) return std::nullopt;
@@ -93,7 +93,7 @@ std::optional<std::uint64_t> parse_unsigned(std::string_view text) {
 }
 
 std::optional<double> parse_number(std::string_view text) {
-    if (text.starts_with('+')) text.remove_prefix(1);
+    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
     double value = 0;
     const char* end = text.data() + text.size();
     const auto [stopped, error] = std::from_chars(text.data(), end, value);

@@ -18,8 +18,6 @@ TEST(Text, WholeNumbersInManyWays) {
     EXPECT_EQ(parse_integer("2^20"), 1'048'576);
     EXPECT_EQ(parse_integer("3^0"), 1);
     EXPECT_EQ(parse_integer("1^2147483647"), 1);  // fast
-    EXPECT_EQ(parse_integer("-1^2147483647"), -1);
-    EXPECT_EQ(parse_integer("-1^2147483646"), 1);
     EXPECT_EQ(parse_integer("0^2147483647"), 0);
     EXPECT_EQ(parse_integer("0^0"), 1);
     EXPECT_EQ(parse_integer("64k"), 65'536);
@@ -29,8 +27,9 @@ TEST(Text, WholeNumbersInManyWays) {
 }
 
 TEST(Text, RefusesWhatIsNoWholeNumberOrDoesNotFit) {
-    for (const char* text : {"", "x", "1.5", "1e", "2^", "^2", "2^-1", "2^64", "1e30", "k", "0.3k",
-                             "9223372036854775808", "1 ", " 1", "nan", "inf", "0x10"})
+    for (const char* text :
+         {"", "x", "1.5", "1e", "2^", "^2", "2^-1", "2^64", "1e30", "k", "0.3k",
+          "9223372036854775808", "1 ", " 1", "nan", "inf", "0x10", "-2^2", "+-2"})
         EXPECT_FALSE(parse_integer(text)) << text;
 }
 
@@ -44,7 +43,7 @@ TEST(Text, SeedsUseAll64Bits) {
 TEST(Text, NumbersAreFiniteAndWhole) {
     EXPECT_EQ(parse_number("-1.5e-3"), -0.0015);
     EXPECT_EQ(parse_number("+2"), 2.0);
-    for (const char* text : {"", "nan", "inf", "1e999", "1,5", "1x", "--1"})
+    for (const char* text : {"", "nan", "inf", "1e999", "1,5", "1x", "--1", "+-1"})
         EXPECT_FALSE(parse_number(text)) << text;
 }
 
