@@ -129,6 +129,7 @@ Generator unit() {
         .related = {"generalized-halton", "leaped-halton", "quasi-random", "low-discrepancy"},
         .traits = {.max_dimension = primes.size()},
         .options = Schema(scramble, leap),
+        .stream_version = 2,
         .plan = plan,
         .sequence = make,
         .uses_seed = random_digits,

@@ -81,12 +81,12 @@ inline void split(std::uint64_t random, std::size_t depth, std::uint64_t key, st
 
 /// Returns (whole + u) / power for a u in (0, 1) taken from `random`. The result is in the interior
 /// of the interval from whole / power to (whole + 1) / power, by more than its rounding error.
-inline double inside(std::uint64_t whole, std::uint64_t random, Wide power) {
-    if (power > digits_limit) return ratio(2 * Wide{whole} + 1, 2 * power);
+inline double inside(Wide whole, std::uint64_t random, Wide power) {
+    if (power > digits_limit) return ratio(2 * whole + 1, 2 * power);
     const auto length = static_cast<double>(static_cast<std::uint64_t>(power));
     const double margin = length * 0x1p-51;
     const double offset = margin + (1 - 2 * margin) * to_unit(random);
-    return (static_cast<double>(whole) + offset) / length;
+    return (static_cast<double>(static_cast<std::uint64_t>(whole)) + offset) / length;
 }
 
 std::vector<std::uint32_t> random_digits(const Rng& rng, std::uint64_t first, std::size_t count,
@@ -282,13 +282,17 @@ void BaseOwen::join(const Stretch& stretch, double* out, std::size_t stride) con
     std::copy_n(images_.begin() + static_cast<std::ptrdiff_t>(stretch.low), stretch.count, image);
     std::size_t depth = low_digits_;
     std::uint64_t place = 1;
-    for (std::uint64_t rest = stretch.high; rest > 0; rest /= base_, place *= base_)
+    std::uint64_t upper[lanes];  // images without the last digit, as those with it may exceed 2^64
+    for (std::uint64_t rest = stretch.high; rest > 0; rest /= base_, place *= base_) {
+        std::copy_n(image, stretch.count, upper);
+        if (rest < base_) std::fill_n(image, stretch.count, 0);
         append_digit(stretch, stretch.high % place, depth++,
                      static_cast<std::uint32_t>(rest % base_), image);
+    }
     const Wide whole = power(base_, depth);
     const std::uint64_t first = stretch.high * block_ + stretch.low;
     for (std::size_t i = 0; i < stretch.count; ++i)
-        out[i * stride] = inside(image[i], mixed(first + i, keys_), whole);
+        out[i * stride] = inside(Wide{upper[i]} * base_ + image[i], mixed(first + i, keys_), whole);
 }
 
 void BaseOwen::fill(std::uint64_t first, std::size_t count, double* out, std::size_t stride) const {

@@ -87,6 +87,18 @@ TEST(BaseOwen, StaysBelowOneAtTheLastIndex) {
         }
 }
 
+// Images of five digits in base 7919 exceed 64 bits.
+TEST(BaseOwen, PermutesTheFirstDigitAtTheLastIndices) {
+    for (const std::uint32_t base : {3U, 1021U, 2749U, 7919U}) {
+        const std::uint64_t first = ((std::uint64_t{1} << 53) / base - 2) * base;
+        std::vector<double> images(base);
+        BaseOwen(7, 2, base).fill(first, base, images.data(), 1);
+        std::set<std::uint64_t> digits;
+        for (const double x : images) digits.insert(leading(x, base, 1));
+        EXPECT_EQ(digits.size(), base);
+    }
+}
+
 // All 3! 3! pairs of permutations at the root and after a first digit, the same with a node four
 // levels down; then all 5!. Chi-square with 35 and 119 degrees of freedom at level 1e-6.
 TEST(BaseOwen, PermutationsAreUniformAndIndependent) {
