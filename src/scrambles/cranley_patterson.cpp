@@ -11,6 +11,7 @@
 // Source   R. Cranley, T. N. L. Patterson, SIAM J. Numer. Anal. 13 (1976) 904-914,
 //          doi:10.1137/0713071.
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -41,7 +42,7 @@ Randomization make(const Values& options, const ScrambleRequest& request) {
     return coordinate_wise(offsets.size(), [offsets](std::size_t k, std::span<double> x) {
         for (double& value : x) {
             const double sum = value + offsets[k];
-            value = sum < 1 ? sum : sum - 1;
+            value = sum < 1 ? sum : std::min(sum - 1, one_minus_ulp);  // sums may round to 2
         }
     });
 }

@@ -34,6 +34,7 @@ TEST(CranleyPatterson, AddsAGivenVector) {
     EXPECT_EQ(error_of([&] { shifted("0.5"); }), "usage: --shift: 1 numbers for 2 coordinates");
     const PointSet nearly_a_turn = shifted("-1e-300,0");
     for (const double x : nearly_a_turn.flat()) EXPECT_LT(x, 1);
+    EXPECT_LT(shifted("0,-1e-300")[1][1], 1) << "of 1";
 }
 
 TEST(CranleyPatterson, GoesByItsOtherNames) {
