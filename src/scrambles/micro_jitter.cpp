@@ -10,9 +10,6 @@
 //          coordinate equal to the rounded lower edge of an interval counts as in that interval.
 // Beware   depends on the points' order: u is a function of the point's index.
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/error.hpp"
 #include "math/digital/scramble_stream.hpp"
 #include "math/digital/stratum.hpp"
@@ -26,15 +23,6 @@ constexpr Param<std::int64_t> cells{.name = "cells",
                                     .high = std::int64_t{1} << 53,
                                     .optional = true,
                                     .help = "Number N of intervals; default: the number of points"};
-
-/// Index of the interval that contains x. A rounded edge belongs to the interval above it.
-std::uint64_t interval_of(double x, std::uint64_t count) {
-    const double scaled = x * static_cast<double>(count);
-    const double edge = std::round(scaled);
-    const bool on_edge = edge / static_cast<double>(count) == x;
-    const auto k = static_cast<std::uint64_t>(on_edge ? edge : std::floor(scaled));
-    return std::min(k, count - 1);
-}
 
 Randomization make(const Values& options, const ScrambleRequest& request) {
     const std::uint64_t count =
@@ -52,7 +40,7 @@ Randomization make(const Values& options, const ScrambleRequest& request) {
         };
         const std::size_t d = which.size();
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            const auto low = static_cast<double>(interval_of(rows[i], count));
+            const double low = stratum_of(rows[i], static_cast<double>(count));
             const std::uint64_t index = first + i / d;
             rows[i] = rng(index).uniform(index * stride + which[i % d]);
             place_in_strata({.low = {&low, 1}, .parts = count}, &rows[i], 1);

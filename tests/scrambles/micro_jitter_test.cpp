@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/nets.hpp"
 #include "support/scrambling.hpp"
 
@@ -15,6 +17,14 @@ TEST(MicroJitter, KeepsEveryIntervalOfTheSet) {
             EXPECT_NE(moved[i][0], plain[i][0]);
         }
     }
+}
+
+TEST(MicroJitter, DoesNotMoveACoordinateJustBelowAnEdgeAcrossIt) {
+    const double edge = 5. / 6;
+    const double below = std::nextafter(edge, 0);  // 6 times it rounds to 5
+    const PointSet moved = scrambled(points_of({{below}, {edge}}), "micro-jitter:cells=6");
+    EXPECT_LT(moved[0][0], edge);
+    EXPECT_GE(moved[1][0], edge);
 }
 
 TEST(MicroJitter, KeepsTheNetProperty) {

@@ -52,6 +52,7 @@
 #include "io/files.hpp"
 #include "math/combinatorics/permutation.hpp"
 #include "math/combinatorics/splitmix64.hpp"
+#include "math/digital/stratum.hpp"
 
 namespace stipple::generators::latin_hypercube {
 namespace {
@@ -306,15 +307,12 @@ StrataOf strata_of(const Plan& plan, const Values& options) {
     return permuted_strata(plan);
 }
 
-std::size_t stratum_of(double x, std::size_t count) {
-    return std::min(static_cast<std::size_t>(x * static_cast<double>(count)), count - 1);
-}
-
 /// Number of given points in each stratum.
 std::vector<std::size_t> held(const PointSet& given, std::size_t coordinate, std::size_t count) {
     std::vector<std::size_t> points(count);
     for (std::size_t i = 0; i < given.count(); ++i)
-        ++points[stratum_of(given[i][coordinate], count)];
+        ++points[static_cast<std::size_t>(
+            stratum_of(given[i][coordinate], static_cast<double>(count)))];
     return points;
 }
 
@@ -337,7 +335,8 @@ search::Design extended(const PointSet& given, std::size_t count, const Rng& rng
     for (std::size_t k = 0; k < d; ++k) {
         const auto axis = design.along(k);
         for (std::size_t i = 0; i < given.count(); ++i)
-            axis[i] = static_cast<search::Level>(stratum_of(given[i][k], count));
+            axis[i] =
+                static_cast<search::Level>(stratum_of(given[i][k], static_cast<double>(count)));
         std::ranges::copy(empty[k], axis.subspan(given.count()).begin());
     }
     return design;
@@ -437,6 +436,10 @@ std::unique_ptr<Sequence> make_design(const Plan& plan, const Values& options,
                                      : design_of(plan, strata_of(plan, options)),
                         .seed = plan.seed};
     if (!options.given(optimize)) return points_of(places, std::move(task.start), given);
+    const std::vector<double> parts = options[levels];
+    for (std::size_t k = 0; k < parts.size(); ++k)  // strata that an edge of levels cuts
+        if (parts[k] > 0 && plan.count % static_cast<std::uint64_t>(parts[k]) != 0)
+            places->put_in_middles(k);
     for (std::size_t i = 0; i < given.count() && plan.destination; ++i)
         if (!plan.destination->has_image(i, given[i]))
             fail(ErrorKind::input, "--extend: point {} of {} violates the constraints", i,
@@ -491,7 +494,7 @@ Generator unit() {
             .options = Schema(centered_option, strength, optimize, power, effort, sliced, nested,
                               extend, add, levels),
             .aliases = {"lhs", "n-rooks", "nrooks"},
-            .stream_version = 2,
+            .stream_version = 3,
             .plan = plan,
             .sequence = make,
             .whole = is_whole};

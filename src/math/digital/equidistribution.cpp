@@ -3,26 +3,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "core/machine/wide.hpp"
 #include "core/parallel.hpp"
 #include "math/combinatorics/primes.hpp"
+#include "math/digital/stratum.hpp"
 #include "math/functions/powers.hpp"
 
 namespace stipple::equidistribution {
 namespace {
-
-/// Index of the interval that contains x, of `parts` equal intervals of [0, 1]. As `parts` is below
-/// 2^31, the rounded product x * parts is off by less than one.
-std::int32_t cell_of(double x, double parts) {
-    double cell = std::floor(x * parts);
-    if (cell / parts > x)
-        --cell;
-    else if ((cell + 1) / parts <= x)
-        ++cell;
-    return static_cast<std::int32_t>(std::min(cell, parts - 1));
-}
 
 /// Returns a + f c, digit by digit modulo the base.
 std::int32_t digit_sum(std::int32_t a, std::int32_t c, std::uint32_t f, std::uint32_t base) {
@@ -206,7 +195,8 @@ Net net_of(const PointSet& points, std::uint32_t base, std::size_t digits, const
     for_each_block(part, n, 1 + 16384 / d, [&](const Block& block) {
         for (std::size_t i = block.first; i < block.last; ++i)
             for (std::size_t k = 0; k < d; ++k)
-                net.cells[k * n + i] = cell_of(points[i][k], static_cast<double>(n));
+                net.cells[k * n + i] =
+                    static_cast<std::int32_t>(stratum_of(points[i][k], static_cast<double>(n)));
     });
     return net;
 }

@@ -10,6 +10,8 @@
 //          probability of that is about low * 2^-53.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,6 +24,17 @@ struct Strata {
     std::uint64_t width = 1;
     std::uint64_t parts = 1;  ///< low + width <= parts <= 2^53
 };
+
+/// Index of the stratum of x, of `parts` <= 2^53 equal ones. A coordinate equal to the rounded lower
+/// edge of a stratum counts as in it, and 1 as in the last one.
+inline double stratum_of(double x, double parts) {
+    double index = std::floor(x * parts);  // off by at most 1
+    if (index / parts > x)
+        --index;
+    else if ((index + 1) / parts <= x)
+        ++index;
+    return std::min(index, parts - 1);
+}
 
 /// Moves x[j * stride] from [0, 1) into stratum j, for every j.
 void place_in_strata(Strata strata, double* x, std::size_t stride);

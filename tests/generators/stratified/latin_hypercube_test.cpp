@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
@@ -10,6 +11,7 @@
 #include <stop_token>
 
 #include "core/rng.hpp"
+#include "math/digital/stratum.hpp"
 #include "support/sequences.hpp"
 #include "support/strata.hpp"
 #include "support/temporary_file.hpp"
@@ -292,6 +294,19 @@ TEST(LatinHypercube, ExtensionsFillEmptyStrata) {
         }
 }
 
+// Coordinates i / n are lower edges of strata, though rounded they may be just below them.
+TEST(LatinHypercube, ExtensionsCountRoundedEdgesAsTheStrataAboveThem) {
+    const PointSet given = make("rank1-lattice", points(49, 2), {{"vector", "1,3"}});
+    const TemporaryFile file(text_of(given), ".csv");
+    const PointSet set = make("latin-hypercube", {}, {{"extend", file.path()}, {"add", "49"}});
+    for (std::size_t k = 0; k < 2; ++k) {
+        std::set<double> strata;
+        for (std::size_t i = 0; i < set.count(); ++i)
+            strata.insert(stipple::stratum_of(set[i][k], 98));
+        EXPECT_EQ(strata.size(), 98U);
+    }
+}
+
 TEST(LatinHypercube, ExtensionsAreOptimized) {
     const PointSet given =
         make("latin-hypercube", points(10, 2), {{"optimize", "maximin"}, {"effort", "0.01"}});
@@ -322,6 +337,28 @@ TEST(LatinHypercube, LevelsSpreadCategories) {
     EXPECT_TRUE(is_latin(set));
     EXPECT_NE(
         set, make("latin-hypercube", points(12, 2), {{"optimize", "maximin"}, {"effort", "0.01"}}));
+}
+
+// Five levels of twelve strata cut some strata, in whose middles the points are.
+TEST(LatinHypercube, LevelsAreThoseOfThePoints) {
+    const PointSet set = make("latin-hypercube", points(12, 2),
+                              {{"optimize", "maximin"}, {"effort", "0.01"}, {"levels", "5,5"}});
+    EXPECT_TRUE(is_latin(set));
+    constexpr int place[] = {0, 3, 5, 7, 10};  // middles of the levels' strata, rounded down
+    int least = 1000;
+    for (std::size_t i = 0; i < 12; ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            int square = 0;
+            for (std::size_t k = 0; k < 2; ++k) {
+                const auto level = [k](const auto& point) {
+                    return static_cast<int>(5 * point[k]);
+                };
+                const int gap = place[level(set[i])] - place[level(set[j])];
+                square += gap * gap;
+            }
+            least = std::min(least, square);
+        }
+    EXPECT_EQ(set.provenance.found.at(0).second, std::to_string(least));
 }
 
 // A stop after the first progress report: cancelled, or the best design so far if the run keeps it.

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/rng.hpp"
 #include "support/exact.hpp"
 
@@ -46,6 +48,20 @@ void expect_inside(const Stratum& s, double x) {
 }
 
 }  // namespace
+
+TEST(Stratum, OfACoordinateIsExactExceptThatRoundedEdgesBelongAbove) {
+    for (const std::uint64_t parts : {1U, 3U, 6U, 13U, 49U, 98U, 1000U})
+        for (std::uint64_t k = 0; k < parts; ++k) {
+            const double edge = static_cast<double>(k) / static_cast<double>(parts);
+            EXPECT_EQ(stratum_of(edge, static_cast<double>(parts)), static_cast<double>(k));
+            if (k == 0) continue;
+            const double below = std::nextafter(edge, 0);
+            EXPECT_EQ(stratum_of(below, static_cast<double>(parts)), static_cast<double>(k - 1))
+                << k << "/" << parts;
+        }
+    EXPECT_EQ(stratum_of(1, 7), 6);
+    EXPECT_EQ(stratum_of(one_minus_ulp, 0x1p53), 0x1p53 - 1);
+}
 
 TEST(Stratum, PlacesByTheFormula) {
     EXPECT_EQ(placed({.low = 3, .width = 1, .parts = 8}, 0.5), 3.5 / 8);

@@ -14,6 +14,7 @@ namespace stipple::latin_hypercube_search {
 namespace {
 
 double root(double value, double degree) {
+    if (std::isinf(value)) return value;
     return value > 0 ? exponential(logarithm(value) / degree) : 0;
 }
 

@@ -99,7 +99,7 @@ Axis even_parts(std::size_t points, Level parts) {
     const std::int64_t m = parts;
     for (std::int64_t level = 0; level < n; ++level)
         axis.places[static_cast<std::size_t>(level)] =
-            static_cast<Level>((n * (2 * (level * m / n) + 1) - m) / (2 * m));
+            static_cast<Level>((n * (2 * ((2 * level + 1) * m / (2 * n)) + 1) - m) / (2 * m));
     return axis;
 }
 

@@ -57,8 +57,8 @@ struct Axis {
     }
 };
 
-/// Axis with m = parts outcomes floor(level m / n); the position of each level is the middle of the
-/// levels with its outcome, rounded down.
+/// Axis with m = parts outcomes floor(x m), x the middle of the level's stratum; the position of each
+/// level is the middle of the levels with its outcome, rounded down.
 Axis even_parts(std::size_t points, Level parts);
 
 /// Axis whose levels 0, 1, ... have the given outcomes: consecutive levels of one outcome have

@@ -58,6 +58,11 @@ TEST(LatinCriteria, OfOnePointThereAreNoPairs) {
         EXPECT_TRUE(described({.kind = kind}, Design(1, 1, 3), {}, {}).empty());
 }
 
+TEST(LatinCriteria, InfiniteOnesOfPointsThatShareLevelsAreLeftOut) {
+    const Design design = design_of({{1, 1, 0, 2}});
+    EXPECT_TRUE(described({.kind = Kind::maxpro}, design, {}, {}).empty());
+}
+
 /// A design with three fixed rows, and spare levels along some coordinates.
 Design with_spare_rows() {
     Design design(14, 16, 4);
@@ -131,7 +136,7 @@ TEST(LatinCriteria, LevelsOfAPartCountAsItsMiddle) {
     EXPECT_EQ(even_parts(12, 3).place(-1), -1);
     for (const Level parts : {2, 3, 7, 10})
         for (Level level = 0; level < 10; ++level) {
-            const double middle = 10 * (std::floor(level * parts / 10.0) + 0.5) / parts - 0.5;
+            const double middle = 10 * (std::floor((level + 0.5) * parts / 10) + 0.5) / parts - 0.5;
             EXPECT_EQ(even_parts(10, parts).place(level),
                       static_cast<Level>(std::floor(middle + 1e-9)))
                 << parts << " " << level;
