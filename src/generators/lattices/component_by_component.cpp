@@ -22,10 +22,12 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include "core/error.hpp"
 #include "core/machine/wide.hpp"
 #include "generators/lattices/component_search.hpp"
+#include "math/arithmetic/quotient.hpp"
 #include "math/arithmetic/ratio.hpp"
 #include "math/combinatorics/primes.hpp"
 
@@ -33,6 +35,8 @@ namespace stipple {
 namespace {
 
 constexpr double two_pi_squared = 2 * std::numbers::pi * std::numbers::pi;
+/// pi^2 / 3.
+constexpr DoubleDouble pi_squared_third{0x1.a51a6625307d3p+1, 0x1.1873d8912200cp-54};
 constexpr std::size_t rows_at_once = 1024;
 
 /// omega(i z / n) for integers i and z up to 2^24; the same bits for i and n - i.
@@ -41,22 +45,39 @@ struct Omega {
     double inverse = 1 / n;
     double scale = two_pi_squared / (n * n);
 
-    [[nodiscard]] double operator()(double i, double z) const {
-        const double product = i * z;
+    [[nodiscard]] double remainder(double product) const {
         double r = product - std::floor(product * inverse) * n;
         r = r < 0 ? r + n : r;
-        r = r >= n ? r - n : r;
+        return r >= n ? r - n : r;
+    }
+    [[nodiscard]] double operator()(double i, double z) const {
+        const double r = remainder(i * z);
         return two_pi_squared / 6 - scale * (r * (n - r));
     }
 };
 
-/// Multiplies each p[j] by 1 + weight omega((first + j) z / n).
+/// Multiplies each p[j] by 1 + t, t = weight omega((first + j) z / n), and adds one t to it.
 STIPPLE_WIDE void multiply(const Omega& omega, std::uint64_t first, std::size_t count, double z,
-                           double weight, double* p) {
+                           double weight, double one, double* p) {
     const auto begin = static_cast<double>(first);
     for (std::size_t j = 0; j < count; ++j) {
         const double i = begin + static_cast<double>(static_cast<std::int32_t>(j));
-        p[j] *= 1 + weight * omega(i, z);
+        const double t = weight * omega(i, z);
+        p[j] = p[j] * (1 + t) + one * t;
+    }
+}
+
+/// Sets high + low to scale times n^2 omega((first + j) z / n) 3 / pi^2, which are whole numbers.
+STIPPLE_WIDE void whole_terms(const Omega& omega, std::uint64_t first, std::size_t count, double z,
+                              DoubleDouble scale, double* high, double* low) {
+    const auto begin = static_cast<double>(first);
+    for (std::size_t j = 0; j < count; ++j) {
+        const double i = begin + static_cast<double>(static_cast<std::int32_t>(j));
+        const double r = omega.remainder(i * z);
+        const double whole = omega.n * omega.n - 6 * (r * (omega.n - r));
+        const DoubleDouble term = split_product(whole, scale.high);
+        high[j] = term.high;
+        low[j] = term.low + whole * scale.low;
     }
 }
 
@@ -210,9 +231,10 @@ class Construction {
         const std::span<double> p = products_.all();
         for (std::uint64_t i = 0; i < n_; i += rows_at_once)
             multiply(omega_, i, std::min<std::size_t>(rows_at_once, n_ - i), static_cast<double>(z),
-                     weight, &p[i]);
+                     weight, products_.one(), &p[i]);
         p[0] = 0;  // left out: the origin adds the same to E for all vectors
         products_.keep_in_range();
+        p[0] = 0;
     }
 
     [[nodiscard]] std::uint64_t next(std::span<const std::uint64_t> vector) {
@@ -254,23 +276,89 @@ class Construction {
     std::vector<std::unique_ptr<Part>> parts_;
 };
 
+/// Sum over points first, ..., last - 1 of the product of all factors, minus 1.
+DoubleDouble excess(std::uint64_t n, std::span<const std::uint64_t> vector,
+                    std::span<const double> weights, std::uint64_t first, std::uint64_t last) {
+    const Omega omega{static_cast<double>(n)};
+    const DoubleDouble unit = quotient(pi_squared_third, {omega.n * omega.n, 0});
+    return sum_of_excess(
+        first, last, vector.size(), [&](std::size_t k, std::uint64_t i, auto high, auto low) {
+            whole_terms(omega, i, high.size(), static_cast<double>(vector[k] % n),
+                        unit * DoubleDouble{weights[k], 0}, high.data(), low.data());
+        });
+}
+
+/// Points i and n - i have the same factors.
+DoubleDouble excess_beyond_origin(std::uint64_t n, std::span<const std::uint64_t> vector,
+                                  std::span<const double> weights) {
+    const DoubleDouble half = excess(n, vector, weights, 1, (n + 1) / 2);
+    const DoubleDouble both{2 * half.high, 2 * half.low};
+    return n % 2 == 1 ? both : both + excess(n, vector, weights, n / 2, n / 2 + 1);
+}
+
+/// A multiplier with e^2 n by plain sums, and the largest possible error of that.
+struct Tried {
+    std::uint64_t multiplier;
+    double error;
+    double rounding;
+    std::optional<double> beyond_origin = {};  ///< in twice the precision, without point 0
+};
+
+class Multipliers {
+  public:
+    Multipliers(std::uint64_t n, std::span<const double> weights) : n_(n), weights_(weights) {}
+
+    [[nodiscard]] Tried tried(std::uint64_t a) const {
+        const auto vector = powers_modulo(a, weights_.size(), n_);
+        const Omega omega{static_cast<double>(n_)};
+        std::vector<double> p(rows_at_once);
+        Tried result{.multiplier = a, .error = 0, .rounding = 0};
+        for (std::uint64_t i = 0; i < n_; i += rows_at_once) {
+            const std::size_t count = std::min<std::size_t>(rows_at_once, n_ - i);
+            std::fill_n(p.begin(), count, 1.0);
+            for (std::size_t k = 0; k < vector.size(); ++k)
+                multiply(omega, i, count, static_cast<double>(vector[k]), weights_[k], 0, p.data());
+            double part = 0;
+            for (std::size_t j = 0; j < count; ++j) {
+                part += p[j] - 1;
+                result.rounding += std::abs(p[j]);
+            }
+            result.error += part;
+        }
+        result.rounding *= 1e-15 * static_cast<double>(10 + vector.size());
+        return result;
+    }
+
+    /// Sums without the origin, which adds the same to all, decide where plain ones cannot.
+    bool is_better(Tried& one, Tried& other) const {
+        if (std::abs(one.error - other.error) > std::max(one.rounding, other.rounding))
+            return one.error < other.error;
+        const double a = beyond_origin(one);
+        const double b = beyond_origin(other);
+        return std::abs(a - b) > 1e-12 * std::abs(b) ? a < b : one.error < other.error;
+    }
+
+  private:
+    double beyond_origin(Tried& one) const {
+        if (!one.beyond_origin) {
+            const auto vector = powers_modulo(one.multiplier, weights_.size(), n_);
+            const double sum = excess_beyond_origin(n_, vector, weights_).high;
+            one.beyond_origin = std::isfinite(sum) ? sum : std::numeric_limits<double>::max();
+        }
+        return *one.beyond_origin;
+    }
+
+    std::uint64_t n_;
+    std::span<const double> weights_;
+};
+
 }  // namespace
 
 double squared_lattice_error(std::uint64_t n, std::span<const std::uint64_t> vector,
                              std::span<const double> weights) {
-    const Omega omega{static_cast<double>(n)};
-    std::vector<double> p(rows_at_once);
-    double sum = 0;
-    for (std::uint64_t i = 0; i < n; i += rows_at_once) {
-        const std::size_t count = std::min<std::size_t>(rows_at_once, n - i);
-        std::fill_n(p.begin(), count, 1.0);
-        for (std::size_t k = 0; k < vector.size(); ++k)
-            multiply(omega, i, count, static_cast<double>(vector[k] % n), weights[k], p.data());
-        double part = 0;
-        for (std::size_t j = 0; j < count; ++j) part += p[j] - 1;
-        sum += part;
-    }
-    const double error = sum / static_cast<double>(n);
+    const DoubleDouble sum =
+        excess(n, vector, weights, 0, 1) + excess_beyond_origin(n, vector, weights);
+    const double error = quotient(sum, {static_cast<double>(n), 0}).high;
     return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
 }
 
@@ -292,8 +380,8 @@ std::uint64_t korobov_multiplier(std::uint64_t n, std::span<const double> weight
                                  std::uint64_t tries, const RunContext& run) {
     const std::uint64_t range = korobov_range(n);
     tries = std::min(tries, range);
-    std::uint64_t best = 1;
-    double least = std::numeric_limits<double>::infinity();
+    const Multipliers multipliers(n, weights);
+    std::optional<Tried> best;
     for (std::uint64_t t = 0; t < tries; ++t) {
         search_tick(run, t, tries);
         // Tries all multipliers if `tries` is enough for them; otherwise multiples of the golden
@@ -303,13 +391,10 @@ std::uint64_t korobov_multiplier(std::uint64_t n, std::span<const double> weight
             1 + (tries == range ? t : static_cast<std::uint64_t>(Wide{turn} * range >> 64));
         while (tries != range && std::gcd(a, n) != 1) ++a;
         if (std::gcd(a, n) != 1) continue;
-        const double error = squared_lattice_error(n, powers_modulo(a, weights.size(), n), weights);
-        if (error < least) {
-            least = error;
-            best = a;
-        }
+        Tried tried = multipliers.tried(a);
+        if (!best || multipliers.is_better(tried, *best)) best = tried;
     }
-    return best;
+    return best ? best->multiplier : 1;
 }
 
 }  // namespace stipple

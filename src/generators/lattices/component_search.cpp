@@ -1,10 +1,51 @@
 // SPDX-License-Identifier: MIT
 #include "generators/lattices/component_search.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
+#include "core/machine/wide.hpp"
+
 namespace stipple {
+namespace {
+
+/// Multiplies each 1 + p by 1 + t.
+STIPPLE_WIDE void grow(const double* t_high, const double* t_low, std::size_t count, double* p_high,
+                       double* p_low) {
+    for (std::size_t j = 0; j < count; ++j) {
+        const DoubleDouble both = split_product(p_high[j], t_high[j]);
+        const DoubleDouble sum = exact_sum(p_high[j], t_high[j]);
+        const DoubleDouble all = exact_sum(sum.high, both.high);
+        const double low = (sum.low + all.low) + (p_low[j] + t_low[j]) +
+                           (both.low + (p_high[j] * t_low[j] + p_low[j] * t_high[j]));
+        const DoubleDouble result = exact_sum(all.high, low);
+        p_high[j] = result.high;
+        p_low[j] = result.low;
+    }
+}
+
+}  // namespace
+
+DoubleDouble sum_of_excess(std::uint64_t first, std::uint64_t last, std::size_t dimension,
+                           const std::function<void(std::size_t, std::uint64_t, std::span<double>,
+                                                    std::span<double>)>& terms) {
+    constexpr std::size_t at_once = 1024;
+    std::array<std::array<double, at_once>, 4> rows;
+    DoubleDouble sum;
+    for (; first < last; first += at_once) {
+        const std::size_t count = std::min<std::uint64_t>(at_once, last - first);
+        rows[0].fill(0);
+        rows[1].fill(0);
+        for (std::size_t k = 0; k < dimension; ++k) {
+            terms(k, first, std::span(rows[2]).first(count), std::span(rows[3]).first(count));
+            grow(rows[2].data(), rows[3].data(), count, rows[0].data(), rows[1].data());
+        }
+        for (std::size_t j = 0; j < count; ++j) sum = sum + DoubleDouble{rows[0][j], rows[1][j]};
+    }
+    return sum;
+}
 
 void search_tick(const RunContext& run, std::uint64_t done, std::uint64_t total) {
     run.check_stop();
@@ -44,9 +85,15 @@ void CyclicCorrelation::correlate() {
 void Products::keep_in_range() {
     double largest = 0;
     for (const double p : p_) largest = std::max(largest, std::abs(p));
-    const int exponent = std::ilogb(largest);
+    if (one_ > 0 && 4 * largest > one_) {
+        for (double& p : p_) p += one_;
+        largest += one_;
+        one_ = 0;
+    }
+    const int exponent = std::max(std::ilogb(largest), -1000);
     if (largest == 0 || std::abs(exponent) < 64) return;
     for (double& p : p_) p = std::ldexp(p, -exponent);
+    one_ = std::ldexp(one_, -exponent);
 }
 
 double Products::mean() const {

@@ -14,11 +14,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "math/arithmetic/double_double.hpp"
 #include "math/fourier/fft.hpp"
 #include "math/fourier/grid_cells.hpp"
 #include "stipple/run.hpp"
@@ -52,15 +54,19 @@ class CyclicCorrelation {
     std::optional<GroupTransform> transform_;
 };
 
-/// Products p over the components so far, up to a common factor, which does not affect choices.
+/// Products p over the components so far, up to a common factor and term, which do not affect
+/// choices: p - 1 while all are near 1, so that tiny weights do not vanish beside 1, then p.
 class Products {
   public:
-    explicit Products(std::size_t count) : p_(count, 1.0) {}
+    explicit Products(std::size_t count) : p_(count, 0.0) {}
 
     [[nodiscard]] std::span<double> all() { return p_; }
     [[nodiscard]] std::span<const double> all() const { return p_; }
 
-    /// Divides the products by a power of two before they overflow.
+    /// A factor 1 + t makes all()[i] all()[i] (1 + t) + one() t.
+    [[nodiscard]] double one() const { return one_; }
+
+    /// Divides the products by a power of two before they overflow or underflow.
     void keep_in_range();
 
     [[nodiscard]] double mean() const;
@@ -71,7 +77,15 @@ class Products {
 
   private:
     std::vector<double> p_;
+    double one_ = 1;  ///< what was subtracted from the products
 };
+
+/// Sum over points first, ..., last - 1 of prod_k (1 + t_k) - 1, in twice the precision of a double,
+/// since the terms of good lattices cancel to a part of about n^-2.
+/// @param terms(k, i, high, low) sets high + low to the t_k of points i, i + 1, ...
+DoubleDouble sum_of_excess(std::uint64_t first, std::uint64_t last, std::size_t dimension,
+                           const std::function<void(std::size_t, std::uint64_t, std::span<double>,
+                                                    std::span<double>)>& terms);
 
 /// First of the components that are best up to rounding.
 /// @param end number of candidates, 0 to end - 1

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "generators/net_sequence.hpp"
 #include "math/decaying_weights.hpp"
 #include "math/digital/gf2.hpp"
@@ -72,6 +73,13 @@ VectorFile vector_in_file(const Values& options, bool polynomial) {
     if (found.vector.empty() || (wanted > 0 && found.vector.size() != wanted))
         file.refuse_whole(fmt::format("{} components; expected {}", found.vector.size(),
                                       wanted > 0 ? std::to_string(wanted) : "some"));
+    return found;
+}
+
+std::vector<std::pair<std::string, std::string>> found_vector(
+    const std::vector<std::uint64_t>& vector, double squared_error, const char* name) {
+    std::vector<std::pair<std::string, std::string>> found{{"vector", join(vector, ",")}};
+    if (std::isfinite(squared_error)) found.emplace_back(name, format_number(squared_error));
     return found;
 }
 

@@ -6,7 +6,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/options.hpp"
@@ -54,6 +56,11 @@ struct VectorFile {
 /// @throws Error(input) naming file, line and column, also for a lattice of the other kind
 /// Source  github.com/QMCSoftware/LDData, README.md
 VectorFile vector_in_file(const Values& options, bool polynomial);
+
+/// Results of a search: the vector and, unless it overflows, the squared error under this name.
+std::vector<std::pair<std::string, std::string>> found_vector(
+    const std::vector<std::uint64_t>& vector, double squared_error,
+    const char* name = "squared_error");
 
 /// The file to write for --vector-output; empty without this option.
 std::vector<SideFile> vector_files(const Values& options, const VectorFile& lattice);

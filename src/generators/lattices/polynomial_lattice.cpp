@@ -27,7 +27,6 @@
 #include <bit>
 
 #include "core/error.hpp"
-#include "core/text.hpp"
 #include "generators/generator.hpp"
 #include "generators/lattices/lattice_options.hpp"
 #include "generators/lattices/polynomial_search.hpp"
@@ -157,10 +156,9 @@ std::unique_ptr<Sequence> make(const Plan& decided, const Values& options, const
         options, {.vector = vector, .interlaced = file.interlaced, .modulus = modulus});
     if (searches(options))
         points->set_found([=, weights = weights_of(options, decided.dimension)] {
-            return std::vector{
-                std::pair{std::string("vector"), join(vector, ",")},
-                std::pair{std::string("squared_error"),
-                          format_number(squared_polynomial_error(modulus, vector, weights))}};
+            const bool all = decided.count == std::uint64_t{1} << gf2::degree(modulus);
+            return found_vector(vector, squared_polynomial_error(modulus, vector, weights),
+                                all ? "squared_error" : "squared_error_of_all_points");
         });
     return points;
 }
@@ -178,7 +176,7 @@ Generator unit() {
             .options = Schema(rule, modulus_option, vector_option, vector_file, product_weights,
                               weight_decay, vector_output, vector_format, binary_scramble),
             .writes = {std::string(vector_output.name), std::string(vector_format.name)},
-            .stream_version = 2,
+            .stream_version = 3,
             .plan = plan,
             .sequence = make,
             .settle =

@@ -56,8 +56,11 @@ class Search {
 
     void multiply_by(std::uint64_t q, double weight) {
         const double* kernel = kernel_from(q);
-        for (std::size_t a = 0; a < units_.size(); ++a)
-            products_.all()[a] *= 1 + weight * kernel[a];
+        const std::span<double> p = products_.all();
+        for (std::size_t a = 0; a < units_.size(); ++a) {
+            const double t = weight * kernel[a];
+            p[a] = p[a] * (1 + t) + products_.one() * t;
+        }
         products_.keep_in_range();
     }
 
@@ -110,8 +113,12 @@ double squared_polynomial_error(std::uint64_t modulus, std::span<const std::uint
                                 std::span<const double> weights) {
     const int m = gf2::degree(modulus);
     const auto digits = static_cast<std::size_t>(m);
-    std::vector<double> kernel{omega(0, m)};  // omega of 0, then of polynomials of degree 0, 1, ...
-    for (int j = 0; j < m; ++j) kernel.push_back(omega(std::uint64_t{1} << j, m));
+    constexpr DoubleDouble sixth{1. / 6, 0x1.5555555555555p-57};
+    std::vector<DoubleDouble> kernel{sixth};  // omega of 0, then of polynomials of degree 0, 1, ...
+    for (int j = 0; j < m; ++j) kernel.push_back(sixth + DoubleDouble{-std::ldexp(0.5, j - m), 0});
+    std::vector<DoubleDouble> factors;  // kernel times the weight of each component
+    for (const double weight : weights.first(vector.size()))
+        for (const DoubleDouble& value : kernel) factors.push_back(value * DoubleDouble{weight, 0});
     std::vector<std::uint64_t> shifted;  // q x^t mod modulus for each component
     for (std::uint64_t q : vector)
         for (int t = 0; t < m; ++t) {
@@ -119,16 +126,18 @@ double squared_polynomial_error(std::uint64_t modulus, std::span<const std::uint
             q = q << 1 ^ ((q >> (m - 1) & 1) != 0 ? modulus : 0);
         }
     std::vector<std::uint64_t> at(vector.size());  // i q mod modulus, by q; i in Gray code order
-    double sum = 0;
-    for (std::uint64_t i = 0; i < std::uint64_t{1} << m; ++i) {
-        double product = 1;
-        for (std::size_t k = 0; k < at.size(); ++k) {
+    const auto terms = [&](std::size_t k, std::uint64_t i, auto high, auto low) {
+        for (std::size_t j = 0; j < high.size(); ++j, ++i) {
             if (i > 0) at[k] ^= shifted[k * digits + static_cast<std::size_t>(std::countr_zero(i))];
-            product *= 1 + weights[k] * kernel[static_cast<std::size_t>(std::bit_width(at[k]))];
+            const auto width = static_cast<std::size_t>(std::bit_width(at[k]));
+            const DoubleDouble& term = factors[k * kernel.size() + width];
+            high[j] = term.high;
+            low[j] = term.low;
         }
-        sum += product - 1;
-    }
-    return std::ldexp(sum, -m);
+    };
+    const DoubleDouble sum = sum_of_excess(0, std::uint64_t{1} << m, vector.size(), terms);
+    const double error = std::ldexp(sum.high, -m);
+    return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
 }
 
 std::vector<std::uint64_t> polynomial_components(std::uint64_t modulus,

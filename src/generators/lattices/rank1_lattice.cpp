@@ -34,7 +34,6 @@
 
 #include "core/error.hpp"
 #include "core/machine/wide.hpp"
-#include "core/text.hpp"
 #include "generators/generator.hpp"
 #include "generators/lattices/component_by_component.hpp"
 #include "generators/lattices/lattice_options.hpp"
@@ -224,9 +223,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
     Sequence::Found found;
     if (chosen == "cbc" || searches_multiplier(chosen, options))
         found = [n = plan.count, z, weight = weights_of(options, plan.dimension)] {
-            return std::vector{std::pair{std::string("vector"), join(z, ",")},
-                               std::pair{std::string("squared_error"),
-                                         format_number(squared_lattice_error(n, z, weight))}};
+            return found_vector(z, squared_lattice_error(n, z, weight));
         };
     auto points = std::make_unique<Sequence>(multiples(plan.count, z), true, std::move(found));
     points->side_files = vector_files(options, {.vector = z, .points = plan.count});
@@ -277,7 +274,7 @@ Generator unit() {
                               weight_decay, vector_output, vector_format),
             .aliases = {"lattice", "rank-1-lattice"},
             .writes = {std::string(vector_output.name), std::string(vector_format.name)},
-            .stream_version = 2,
+            .stream_version = 3,
             .plan = plan,
             .sequence = make,
             .settle = [](Values& options) { options.put(rule.name, rule_of(options), false); },

@@ -150,6 +150,29 @@ TEST(PolynomialLattice, ErrorOfAVectorIsThatOfItsPoints) {
     }
 }
 
+// e^2 is a part of about n^-2 of its terms; one coordinate has w / (6 n^2). Others by NumPy.
+TEST(PolynomialLattice, ErrorKeepsItsDigitsInLargeLatticesAndForTinyWeights) {
+    for (const int m : {1, 10, 20})
+        for (const double weight : {1e6, 1., 1e-12, 1e-250})
+            EXPECT_NEAR(
+                squared_polynomial_error(gf2::smallest_irreducible(m),
+                                         std::vector<std::uint64_t>{1}, std::vector{weight}) /
+                    std::ldexp(weight / 6, -2 * m),
+                1, 1e-14)
+                << m << ", " << weight;
+    const std::vector<std::uint64_t> vector = {1, 800};
+    const std::vector<double> weights = {1e-10, 1e-10};
+    EXPECT_NEAR(squared_polynomial_error(1033, vector, weights) / 3.178914388444826e-17, 1, 1e-12);
+}
+
+// 1000 points are not a lattice: the error is that of all 1024.
+TEST(PolynomialLattice, NamesTheErrorOfAllPointsWhereSomeAreLeftOut) {
+    EXPECT_EQ(generate("polynomial-lattice", points(1024, 2)).provenance.found.at(1).first,
+              "squared_error");
+    EXPECT_EQ(generate("polynomial-lattice", points(1000, 2)).provenance.found.at(1).first,
+              "squared_error_of_all_points");
+}
+
 TEST(PolynomialLattice, IsClosedUnderXor) {
     const PointSet set = make("polynomial-lattice", points(64, 3));
     std::set<std::vector<int>> all;

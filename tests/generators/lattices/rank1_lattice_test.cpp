@@ -173,6 +173,43 @@ TEST(LatticeError, IsItsDefinition) {
     }
 }
 
+// e^2 is a part of about n^-2 of its terms. One coordinate has w pi^2 / (3 n^2); other values are by
+// long doubles in NumPy.
+TEST(LatticeError, KeepsItsDigitsInLargeLatticesAndForTinyWeights) {
+    const double pi2 = std::numbers::pi * std::numbers::pi;
+    for (const std::uint64_t n : {3U, 1021U, 1U << 16, 1U << 22})
+        for (const double weight : {1e6, 1., 1e-12, 1e-250}) {
+            const double expected = weight * pi2 / 3 / static_cast<double>(n * n);
+            EXPECT_NEAR(squared_lattice_error(n, Vector{1}, std::vector{weight}) / expected, 1,
+                        1e-14)
+                << n << ", " << weight;
+        }
+    const auto of = [](std::uint64_t n, std::uint64_t z, double a, double b) {
+        return squared_lattice_error(n, Vector{1, z}, std::vector{a, b});
+    };
+    EXPECT_NEAR(of(65536, 6713, 1e-8, 1e-8) / 1.5319653903574778e-17, 1, 1e-11);
+    EXPECT_NEAR(of(1 << 20, 387275, 1, 0.25) / 8.823060842435424e-11, 1, 1e-9);
+    EXPECT_NEAR(of(1009, 2, 1e-300, 1e-300) / 6.462880917523162e-306, 1, 1e-13);
+}
+
+// Tiny weights leave the sum over products of two terms, which do not depend on the weights.
+TEST(ComponentByComponent, TellsVectorsApartForTinyWeights) {
+    for (const std::uint64_t n : {64U, 101U, 1009U}) {
+        const auto pairs = [n](std::uint64_t a, std::uint64_t b) {
+            const Vector z{a, b};
+            const double both = by_definition(n, z, {1, 1});
+            return both - by_definition(n, {a}, {1}) - by_definition(n, {b}, {1});
+        };
+        double least = 1e300;
+        for (std::uint64_t c = 2; 2 * c <= n; ++c)
+            if (std::gcd(c, n) == 1) least = std::min(least, pairs(1, c));
+        for (const double weight : {1e-9, 1e-17, 1e-300}) {
+            const Vector z = component_by_component(n, std::vector{weight, weight}, {});
+            EXPECT_NEAR(pairs(1, z[1]), least, 1e-12) << n << ", " << weight;
+        }
+    }
+}
+
 TEST(ComponentByComponent, IsTheChoiceByTrialForCountsOfEveryKind) {
     for (const std::uint64_t n : {1U,  2U,  3U,  4U,   5U,   6U,   7U,   8U,   9U,   16U,  30U, 36U,
                                   64U, 81U, 97U, 128U, 180U, 240U, 251U, 256U, 343U, 360U, 500U})
@@ -213,6 +250,13 @@ TEST(KorobovSearch, FindsTheBestOfAllWhereThereIsTime) {
                     1e-11 * std::abs(least))
             << n;
     }
+}
+
+// At the origin the product of 700 factors overflows; all multipliers had an infinite error then.
+TEST(KorobovSearch, LeavesOutTheOriginWhereItHidesTheOthers) {
+    const Vector z =
+        powers_modulo(korobov_multiplier(1009, std::vector(700, 0.6), 1009, {}), 700, 1009);
+    EXPECT_GT(std::set(z.begin(), z.end()).size(), 100U);
 }
 
 TEST(KorobovSearch, IsMuchBetterThanTheMiddleOfAllAlsoWhereItTriesFew) {
