@@ -332,6 +332,9 @@ GeneratedSets::GeneratedSets(SetsToMake asked, const RunContext& run)
     if (asked_.sets - 1 > ~plan_.seed)
         fail(ErrorKind::usage, "--seed: {} and {} sets go beyond the 64 bits of a seed", plan_.seed,
              asked_.sets);
+    if (generator_.max_seed && asked_.sets - 1 > generator_.max_seed(asked_.options) - plan_.seed)
+        fail(ErrorKind::usage, "--seed: {} and {} sets go beyond {}, the last seed of {}",
+             plan_.seed, asked_.sets, generator_.max_seed(asked_.options), generator_.name);
     if (different_sets() < asked_.sets)
         run.notify(fmt::format("{} does not use the seed: all {} sets are the same",
                                generator_.name, asked_.sets));

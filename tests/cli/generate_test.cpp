@@ -372,6 +372,16 @@ TEST(Warp, TellsItsDensityAtGivenPoints) {
     EXPECT_EQ(at({"power", "--exponent", "-1/2"}, "0\n").code, 3);
 }
 
+// Seeds beyond the last one repeat the numbers of others, or give zeros.
+TEST(Generate, RefusesSetsBeyondTheLastSeedOfAnEngine) {
+    const Sandbox box;
+    const std::string last = "stipple generate random --rng ranmar -n 1 -s 942438976 -m ";
+    good(box.shell(last + "2"));
+    EXPECT_EQ(
+        box.shell(last + "3").err,
+        "stipple: --seed: 942438976 and 3 sets go beyond 942438977, the last seed of random\n");
+}
+
 // The vector found by a search can be read by other packages and by --vector-file, and is in the
 // provenance.
 TEST(Generate, WritesVectorsAsOtherPackagesDo) {

@@ -16,6 +16,8 @@
 //          and random have so few bits that equal coordinates are frequent.
 // Source   see core/rng.hpp and math/digital/legacy_engines.hpp; the C++ standard, [rand.predef].
 
+#include <fmt/format.h>
+
 #include "core/rng.hpp"
 #include "generators/generator.hpp"
 #include "math/digital/legacy_engines.hpp"
@@ -77,6 +79,14 @@ std::uint64_t max_seed(const Values& options) {
     return ~std::uint64_t{0};
 }
 
+std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
+                               const Values& options) {
+    const std::string name = options[engine];
+    if (plan.seed > 0 || (name != "random" && name != "ranlux48")) return {};
+    return {fmt::format("the engine {} takes seed 0 for {}: both give the same points", name,
+                        name == "random" ? 1 : 19780503)};
+}
+
 }  // namespace
 
 Generator unit() {
@@ -89,6 +99,7 @@ Generator unit() {
         .options = Schema(engine),
         .aliases = {"uniform", "independent", "white-noise"},
         .sequence = make,
+        .notes = notes,
         .max_seed = max_seed};
 }
 

@@ -97,6 +97,24 @@ TEST(Random, RefusesSeedsThatAnEngineDoesNotTake) {
     EXPECT_NE(refusal("rand", 1), "");
 }
 
+TEST(Random, NotesWhereSeedZeroIsAnother) {
+    const auto note = [](const char* rng, std::uint64_t seed) {
+        std::string said;
+        RunContext run;
+        run.warn = [&](const std::string& text) { said = text; };
+        generate("random", {.count = 1, .seed = seed}, {{"rng", rng}}, run);
+        return said;
+    };
+    EXPECT_EQ(note("random", 0), "the engine random takes seed 0 for 1: both give the same points");
+    EXPECT_EQ(with("random", points(3, 2), 0), with("random", points(3, 2), 1));
+    EXPECT_EQ(note("ranlux48", 0),
+              "the engine ranlux48 takes seed 0 for 19780503: both give the same points");
+    EXPECT_EQ(with("ranlux48", points(3, 2), 0), with("ranlux48", points(3, 2), 19780503));
+    for (const char* rng : {"philox", "drand48", "mt19937-64", "ranmar"})
+        EXPECT_EQ(note(rng, 0), "");
+    EXPECT_EQ(note("random", 1), "");
+}
+
 // The mean of 2e5 numbers differs from 1/2 by less than 5 standard deviations, sqrt(1 / (12 N)),
 // and neighbours are uncorrelated: false alarm 6 engines x 2 x 6e-7. Using every second number
 // only, or halving a range, fails by far.
