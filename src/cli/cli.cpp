@@ -86,6 +86,7 @@ int run_verb(int argc, char** argv) {
     try {
         if (const auto caught = std::current_exception()) std::rethrow_exception(caught);
     } catch (const std::bad_alloc&) {
+        io::PartFiles::remove_all();
         say("stipple: out of memory\n");
         std::_Exit(exit_code(ErrorKind::limit));
     } catch (...) {

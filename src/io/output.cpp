@@ -13,6 +13,7 @@
 #include <climits>
 #include <cstdint>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <system_error>
 #include <vector>
@@ -88,7 +89,33 @@ bool leaves_descriptors(int descriptor) {
             static_cast<rlim_t>(descriptor) + spare < limit.rlim_cur);
 }
 
+/// The objects with temporary files, each of which knows the one before it.
+struct Living {
+    std::mutex mutex;
+    PartFiles* last = nullptr;
+};
+Living& living() {
+    static Living all;
+    return all;
+}
+
 }  // namespace
+
+PartFiles::PartFiles() {
+    const std::lock_guard lock(living().mutex);
+    before_ = std::exchange(living().last, this);
+    if (before_ != nullptr) before_->after_ = this;
+}
+
+PartFiles::~PartFiles() {
+    const std::lock_guard lock(living().mutex);
+    (after_ != nullptr ? after_->before_ : living().last) = before_;
+    if (before_ != nullptr) before_->after_ = after_;
+}
+
+void PartFiles::remove_all() noexcept {
+    for (PartFiles* one = living().last; one != nullptr; one = one->before_) one->remove_parts();
+}
 
 Output::Output(std::string path, std::stop_token stop)
     : path_(std::move(path)), stop_(std::move(stop)) {
@@ -167,6 +194,10 @@ bool Output::open_unnamed(mode_t mode) {
 
 Output::~Output() {
     if (owned_ && descriptor_ >= 0) ::close(descriptor_);
+    remove_parts();
+}
+
+void Output::remove_parts() noexcept {
     if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
@@ -251,7 +282,9 @@ void Outputs::set_aside() {
     files_.pop_back();
 }
 
-Outputs::~Outputs() {
+Outputs::~Outputs() { remove_parts(); }
+
+void Outputs::remove_parts() noexcept {
     if (!names_) return;
     try {
         names_->rewind();

@@ -19,12 +19,33 @@
 
 namespace stipple::io {
 
+/// Something with files under temporary names. All such files can be removed when the program ends
+/// without destructors.
+class PartFiles {
+  public:
+    PartFiles();
+    PartFiles(const PartFiles&) = delete;
+    PartFiles& operator=(const PartFiles&) = delete;
+    virtual ~PartFiles();
+
+    /// Removes the files of all objects, without allocating.
+    static void remove_all() noexcept;
+
+  protected:
+    /// Removes the files of this object, if any.
+    virtual void remove_parts() noexcept = 0;
+
+  private:
+    PartFiles* before_ = nullptr;  ///< the object made before this one
+    PartFiles* after_ = nullptr;
+};
+
 /// A file that appears only when it is complete, or standard output for "-". Devices and pipes are
 /// written in place; for a symbolic link, its target is replaced. Names ending in .gz or .zst get
 /// compressed bytes. Until commit() the bytes are in an unnamed file, which vanishes with the
 /// process, or in a file .stipple-PID-N.part in the same folder if the file system has no unnamed
 /// files.
-class Output {
+class Output final : public PartFiles {
   public:
     /// If a signal interrupts a write (handler installed without SA_RESTART) and `stop` was
     /// requested, the write is abandoned. @throws Error(io) if the file cannot be created
@@ -32,10 +53,8 @@ class Output {
     /// Function that receives the bytes instead of a file; it returns false to stop the output.
     using Sink = std::function<bool(std::string_view bytes)>;
     explicit Output(Sink sink);
-    Output(const Output&) = delete;
-    Output& operator=(const Output&) = delete;
     /// Removes the file if it was not committed.
-    ~Output();
+    ~Output() override;
 
     /// Writes all bytes. Returns false if the reader closed the pipe (SIGPIPE must be ignored), or
     /// the sink stopped. @throws Error(io) naming the target and the reason; Error(cancelled)
@@ -62,6 +81,7 @@ class Output {
     void release() { temporary_.clear(); }
 
   private:
+    void remove_parts() noexcept override;
     void open_in_place();
     void open_beside(mode_t mode);
     bool open_unnamed(mode_t mode);
@@ -83,13 +103,11 @@ class Output {
 
 /// Output files of one command, which appear together or not at all. The number of files does not
 /// affect memory: their names are stored on disk.
-class Outputs {
+class Outputs final : public PartFiles {
   public:
     Outputs() = default;
-    Outputs(const Outputs&) = delete;
-    Outputs& operator=(const Outputs&) = delete;
     /// Removes the files that were not committed.
-    ~Outputs();
+    ~Outputs() override;
 
     /// Opens the next Output with these arguments; the previous one must be complete. The reference
     /// is valid until the next call.
@@ -103,6 +121,7 @@ class Outputs {
     void commit();
 
   private:
+    void remove_parts() noexcept override;
     void set_aside();
 
     std::list<Output> files_;       ///< unnamed files, files written in place, and the last file

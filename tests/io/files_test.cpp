@@ -315,4 +315,18 @@ TEST_F(Files, ReadPointsNamesTheFile) {
                   "npy, psa, tsv, txt, utk");
 }
 
+// The program ends without destructors if memory for a JSON value's destructor is missing.
+TEST_F(Files, PartsCanBeRemovedWithoutDestructors) {
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+    const rlimit few{.rlim_cur = 80, .rlim_max = before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &few), 0);  // files have names, as none is left to spare
+    io::Outputs many;
+    for (int i = 0; i < 30; ++i) many.add(path(std::to_string(i))).write("bytes");
+    ::setrlimit(RLIMIT_NOFILE, &before);
+    EXPECT_GT(entries(), 0U);
+    io::PartFiles::remove_all();
+    EXPECT_EQ(entries(), 0U);
+}
+
 }  // namespace stipple::testing::files_test
