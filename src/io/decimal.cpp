@@ -8,10 +8,13 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <clocale>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 
 #include "core/machine/int128.hpp"
+#include "core/text.hpp"
 
 namespace stipple::io {
 namespace {
@@ -85,7 +88,9 @@ void append_cut(std::string& out, double value, int precision) {
 /// Parses a number that from_chars reports as out of range: infinity if too large, subnormal or
 /// zero if too small.
 double beyond_range(const char* first, const char* end) {
-    return std::strtod(std::string(first, end).c_str(), nullptr);
+    std::string text(first, end);
+    replace_all(text, ".", std::localeconv()->decimal_point);  // which strtod() expects
+    return std::strtod(text.c_str(), nullptr);
 }
 
 }  // namespace

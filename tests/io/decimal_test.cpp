@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <charconv>
+#include <clocale>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -250,6 +251,20 @@ TEST(Decimal, SingleNeverReachesOneFromBelow) {
         ASSERT_LE(single, value);
         ASSERT_GT(std::nextafter(single, 2.0F), value);
     }
+}
+
+// A program that the library is part of may have set its user's language.
+TEST(Decimal, ReadsNumbersBeyondDoublesInAnyLanguage) {
+    const std::string before = std::setlocale(LC_NUMERIC, nullptr);
+    if (std::setlocale(LC_NUMERIC, "de_DE.UTF-8") == nullptr) GTEST_SKIP() << "no German";
+    double tiny = 1;
+    double huge = 1;
+    const std::string texts[] = {"1.5e-400", "1.5e400"};
+    io::read_number(texts[0].data(), texts[0].data() + texts[0].size(), tiny);
+    io::read_number(texts[1].data(), texts[1].data() + texts[1].size(), huge);
+    std::setlocale(LC_NUMERIC, before.c_str());
+    EXPECT_EQ(tiny, 0);
+    EXPECT_EQ(huge, std::numeric_limits<double>::infinity());
 }
 
 }  // namespace stipple::testing::decimal_test
