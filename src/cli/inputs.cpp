@@ -174,11 +174,12 @@ std::vector<PointSet> read_all(io::PointStream& stream, const Sources& from,
 
 namespace {
 
-/// Bounding box of the points; sides of length 0 become 1.
+/// Bounding box of the points; sides of length 0 become 1, or the least that changes their ends.
 Box box_around(const PointSet& points) {
     Box box = bounding_box(points.flat(), points.dimension());
     for (std::size_t k = 0; k < box.dimension(); ++k)
-        if (!(box.high[k] > box.low[k])) box.high[k] = box.low[k] + 1;
+        if (const double low = box.low[k]; !(box.high[k] > low))
+            box.high[k] = std::max(low + 1, std::nextafter(low, HUGE_VAL));
     return box;
 }
 

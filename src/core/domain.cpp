@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -64,8 +65,13 @@ class BoxDomain final : public Domain {
 
 double volume_of(const Box& box) {
     double volume = 1;
-    for (std::size_t k = 0; k < box.dimension(); ++k) volume *= box.extent(k);
-    return volume;
+    int power = 0;  // of 2, a factor of its own: products of some of the sides may be no doubles
+    for (std::size_t k = 0; k < box.dimension(); ++k) {
+        std::array<int, 2> more{};
+        volume = std::frexp(volume * std::frexp(box.extent(k), &more[0]), &more[1]);
+        power += more[0] + more[1];
+    }
+    return std::ldexp(volume, power);
 }
 
 Support Domain::support() const {

@@ -812,4 +812,12 @@ TEST(Analyze, TheMeanOfOneSetHasItsPlaces) {
     EXPECT_FALSE(found("2").contains("box"));
 }
 
+TEST(Analyze, RescalesCoordinatesThatAreAllTheSame) {
+    const Sandbox box;
+    box.write("p.csv", "x,y\n1e17,0.1\n1e17,0.5\n1e17,0.3\n");
+    const auto report = json::parse(
+        good(box.run({"analyze", "star-discrepancy", "p.csv", "--rescale", "--format", "json"})));
+    EXPECT_EQ(report["results"]["value"], 1);
+}
+
 }  // namespace stipple::testing::analyze_test

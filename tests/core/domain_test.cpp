@@ -44,6 +44,13 @@ TEST(Domain, ScalingStaysBelowTheUpperFace) {
     EXPECT_LT(rows[2], 1e15 + 1);
 }
 
+TEST(Domain, VolumesAreThoseOfAllSides) {
+    for (const char* text :
+         {"0..1e-200,0..1e-200,0..1e200,0..1e200", "0..1e200,0..1e200,0..1e-200,0..1e-200"})
+        EXPECT_NEAR(box_domain(parse_box(text, 4))->measure(), 1, 1e-15);
+    EXPECT_EQ(box_domain(parse_box("0..1e-200", 2))->measure(), 0);
+}
+
 TEST(Domain, ProductsTakeTheirCoordinates) {
     const auto product = parse_domain("disk@3,1 x unit-cube@2", 3);
     EXPECT_EQ(product->spec(), "disk@3,1 x unit-cube@2");
