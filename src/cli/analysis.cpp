@@ -77,7 +77,8 @@ std::pair<double, double> sides_of(const Box& box) {
 }  // namespace
 
 std::string kind_of(const Provenance& made, std::uint64_t count) {
-    if (made.generator.empty()) return fmt::format("{} points", count);
+    if (made.generator.empty())
+        return made.flaw.empty() ? fmt::format("{} points", count) : made.flaw;
     std::string kind = made.generator;
     for (const auto& [name, value] : made.options) kind += fmt::format(" {}={}", name, value);
     for (const std::string& warp : made.warps) kind += " -w " + warp;

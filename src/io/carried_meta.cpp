@@ -87,13 +87,16 @@ std::optional<CarriedMeta> meta_beside(const std::string& points, const RunConte
     return carried_meta(read_bytes(path, run), path);
 }
 
-bool CarriedMeta::fits(std::size_t of_sets, std::uint64_t count, std::size_t numbers,
-                       std::string_view bytes) const {
+bool CarriedMeta::begins(std::string_view bytes) const {
     FrontFingerprint found;
     found.add(bytes);
+    return front.empty() || front == found.text();
+}
+
+bool CarriedMeta::fits(std::size_t of_sets, std::uint64_t count, std::size_t numbers,
+                       std::string_view bytes) const {
     return of_sets == sets && count == provenance.count && numbers == width &&
-           width == provenance.dimension + extras.size() &&
-           (front.empty() || front == found.text());
+           width == provenance.dimension + extras.size() && begins(bytes);
 }
 
 std::string to_text(const CarriedMeta& meta) {

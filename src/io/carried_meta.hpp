@@ -28,6 +28,9 @@ struct CarriedMeta {
     std::vector<std::string> extras = {};  ///< names of the numbers after the coordinates
     Provenance provenance = {};
 
+    /// Whether a file may begin with these bytes.
+    [[nodiscard]] bool begins(std::string_view bytes) const;
+
     /// Whether this provenance fits a file with these bytes, sets, points and numbers per point.
     [[nodiscard]] bool fits(std::size_t of_sets, std::uint64_t count, std::size_t numbers,
                             std::string_view bytes) const;

@@ -2,11 +2,14 @@
 #include "io/columns.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <unordered_map>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/decimal.hpp"
+#include "io/provenance.hpp"
 
 namespace stipple::io {
 namespace {
@@ -107,6 +110,9 @@ std::vector<std::string> replace_names(std::vector<std::string>& names, bool tab
 std::size_t find_column(const std::string& wanted, const std::vector<std::string>& names,
                         const std::string& place, const char* option) {
     const auto it = std::ranges::find(names, wanted);
+    if (const auto alike = std::ranges::count(names, wanted); alike > 1)
+        fail(ErrorKind::usage, "--{}: {} has {} columns '{}'; pick one by its number", option,
+             place, alike, wanted);
     if (it != names.end()) return static_cast<std::size_t>(it - names.begin());
     const auto number = parse_integer(wanted);
     if (number && *number >= 1 && static_cast<std::size_t>(*number) <= names.size())
@@ -198,14 +204,50 @@ void take_densities(PointSet& set) {
     for (std::size_t i = 0; i < set.count(); ++i) {
         std::ranges::copy(set[i].first(d), points[i].begin());
         const double number = set[i][d];
-        if (!(pdf ? number > 0 : number >= 0))
-            fail(ErrorKind::input, "point {}: its {} is {}; expected a number {} 0", i, column,
-                 number, pdf ? "above" : "not below");
+        if (!(pdf ? number > 0 : number == 0 || (number > 0 && std::isfinite(1 / number))))
+            fail(ErrorKind::input, "point {}: its {} is {}; expected a number {}", i, column,
+                 number,
+                 pdf          ? "above 0"
+                 : number < 0 ? "not below 0"
+                              : "whose inverse is a double");
         points.densities.push_back(pdf ? number : 1 / number);
     }
     points.domain = std::move(set.domain);
     points.provenance = std::move(set.provenance);
     set = std::move(points);
+}
+
+namespace {
+
+/// Whether --column picks all coordinates of which the provenance tells, in order.
+bool picks_all(const Columns& columns, const ReadOptions& options, const Provenance& made) {
+    const std::size_t first = columns.has(Columns::set_number) ? 1 : 0;
+    bool all =
+        options.columns.size() == made.dimension && first + made.dimension <= columns.width();
+    for (std::size_t k = 0; all && k < made.dimension; ++k) all = columns.role[first + k] == k;
+    return all;
+}
+
+}  // namespace
+
+void tell_columns(Provenance& provenance, const Columns& columns, const ReadOptions& options) {
+    if (!options.columns.empty() && !picks_all(columns, options, provenance)) {
+        Provenance whole = std::exchange(provenance, {});
+        provenance.count = whole.count;
+        provenance.levels = whole.levels;
+        provenance.precision = whole.precision;
+        provenance.single = whole.single;
+        // Tells sets of one kind from others, as the generator would.
+        whole.seed = provenance.seed;
+        if (whole.command.find(" --count ") == std::string::npos) whole.count = 0;
+        whole.command.clear();
+        whole.found.clear();
+        if (!whole.generator.empty())
+            provenance.flaw =
+                "--column picked coordinates of points with\n" + to_comment_lines(whole);
+    }
+    provenance.density_column = columns.density;
+    provenance.columns = kept_names(columns.names);
 }
 
 std::vector<double> keep_coordinates(std::vector<double> table, const Columns& columns) {
@@ -223,14 +265,49 @@ std::vector<double> keep_coordinates(std::vector<double> table, const Columns& c
     return table;
 }
 
-void tell_origin(std::vector<PointSet>& sets, const Provenance& provenance) {
-    const bool scrambled = std::ranges::any_of(provenance.warps, [](const std::string& spec) {
+bool is_set_number(double value) {
+    return value >= 0 && value <= 0x1p53 && value == std::floor(value);
+}
+
+std::vector<PointSet> gather_sets(std::vector<double> rows, std::size_t dimension,
+                                  std::vector<Mark> marks, const Provenance& provenance) {
+    // Removes the marks of `#` lines, which do not separate the sets of a table, and repetitions:
+    // every block marks its first set number again.
+    std::erase_if(marks, [](const Mark& mark) { return std::isnan(mark.number); });
+    const auto same = [](const Mark& a, const Mark& b) { return a.number == b.number; };
+    marks.erase(std::unique(marks.begin(), marks.end(), same), marks.end());
+    std::unordered_map<double, std::size_t> order;
+    std::vector<std::uint64_t> numbers;
+    for (const Mark& mark : marks)
+        if (order.try_emplace(mark.number, order.size()).second)
+            numbers.push_back(static_cast<std::uint64_t>(mark.number));
+    std::vector<std::vector<double>> sets(order.size());
+    for (std::size_t m = 0; m < marks.size() && order.size() > 1; ++m) {
+        const std::size_t first = marks[m].row * dimension;
+        const std::size_t last = m + 1 < marks.size() ? marks[m + 1].row * dimension : rows.size();
+        const auto part = std::span(rows).subspan(first, last - first);
+        auto& set = sets[order.at(marks[m].number)];
+        set.insert(set.end(), part.begin(), part.end());
+    }
+    if (sets.size() == 1) sets[0] = std::move(rows);
+    std::vector<PointSet> result;
+    for (auto& set : sets) result.emplace_back(std::move(set), dimension);
+    tell_origin(result, provenance, numbers);
+    return result;
+}
+
+Provenance provenance_of_set(Provenance first, std::uint64_t set) {
+    const bool scrambled = std::ranges::any_of(first.warps, [](const std::string& spec) {
         return spec.find("seed=") != std::string::npos;
     });
-    for (std::size_t r = 0; r < sets.size(); ++r) {
-        sets[r].provenance = provenance;
-        if (!provenance.generator.empty() && !scrambled) sets[r].provenance.seed += r;
-    }
+    if (!first.generator.empty() && !scrambled) first.seed += set;
+    return first;
+}
+
+void tell_origin(std::vector<PointSet>& sets, const Provenance& provenance,
+                 const std::vector<std::uint64_t>& numbers) {
+    for (std::size_t r = 0; r < sets.size(); ++r)
+        sets[r].provenance = provenance_of_set(provenance, numbers.empty() ? r : numbers.at(r));
 }
 
 std::vector<PointSet> cut_sets(std::vector<double> rows, std::size_t dimension,

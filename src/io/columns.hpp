@@ -78,12 +78,35 @@ DensityColumns density_columns(const Provenance& provenance);
 /// set.densities. @throws Error(input) naming the first point with an invalid value
 void take_densities(PointSet& set);
 
+/// Stores names and density column of the chosen columns in the provenance of a file. If --column
+/// picks other coordinates, or another order, the points are not those that the provenance makes:
+/// then it no longer says how they were made.
+void tell_columns(Provenance& provenance, const Columns& columns, const ReadOptions& options);
+
 /// Drops the columns of a table that are not coordinates.
 std::vector<double> keep_coordinates(std::vector<double> table, const Columns& columns);
 
-/// Sets the provenance of each set of a file. Generated sets get consecutive seeds, except if they
-/// were scrambled: then only the scrambles' seeds differ.
-void tell_origin(std::vector<PointSet>& sets, const Provenance& provenance);
+/// Boundary between rows where a new set may begin: a separator line, or another set number.
+struct Mark {
+    std::uint64_t row;  ///< index of the first row after the mark
+    const char* at;
+    double number;  ///< the set's number; NaN for lines between rows
+};
+
+/// Whether a number can be that of a set: 0, 1, 2, ...
+bool is_set_number(double value);
+
+/// Groups rows by set number, at the marks with one; sets are ordered by their first rows.
+std::vector<PointSet> gather_sets(std::vector<double> rows, std::size_t dimension,
+                                  std::vector<Mark> marks, const Provenance& provenance);
+
+/// Provenance of a set in a file, from that of set 0. Generated sets have consecutive seeds, except
+/// if they were scrambled: then only the scrambles' seeds differ.
+Provenance provenance_of_set(Provenance first, std::uint64_t set);
+
+/// Sets the provenance of each set of a file. @param numbers of the sets; empty: 0, 1, 2, ...
+void tell_origin(std::vector<PointSet>& sets, const Provenance& provenance,
+                 const std::vector<std::uint64_t>& numbers = {});
 
 /// Splits rows into sets; `starts` has the index of each set's first row, ascending from 0.
 std::vector<PointSet> cut_sets(std::vector<double> rows, std::size_t dimension,

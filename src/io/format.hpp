@@ -85,7 +85,7 @@ struct ReadOptions {
     std::vector<std::string> expected = {};
     Levels levels = {};  ///< level names of categorical columns
 
-    bool any_count = false;      ///< accepts a number of points that differs from the header's
+    bool any_count = false;      ///< accepts numbers of points and columns other than the header's
     bool all_columns = false;    ///< reads columns pdf and weight as coordinates, too
     bool densities = false;      ///< reads column pdf or weight as a number after the coordinates
     bool single = false;         ///< bin holds float32

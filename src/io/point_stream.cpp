@@ -53,16 +53,18 @@ class HeldSets final : public PointStream {
     std::size_t at_ = 0;  ///< numbers of this set already read
 };
 
+/// Hint of errors if FILE.meta.json states the number of points.
+std::string stale_hint(const std::string& source) {
+    return meta_path(source) + " states their number; remove it if it is of other points";
+}
+
 class RawStream final : public PointStream {
   public:
     RawStream(std::unique_ptr<Feed> feed, const RawShape& shape, const ReadOptions& options)
         : feed_(std::move(feed)),
           shape_(shape),
           source_(source_name(options.source)),
-          hint_(options.beside && shape.offset == 0
-                    ? fmt::format("{} states their number; remove it if it is of other points",
-                                  meta_path(source_))
-                    : "") {
+          hint_(options.beside && shape.offset == 0 ? stale_hint(source_) : "") {
         std::vector<std::string> names;
         const CarriedMeta* const beside = options.beside;
         const bool known = beside && shape.count &&
@@ -73,8 +75,7 @@ class RawStream final : public PointStream {
             provenance_ = beside->provenance;
         }
         columns_ = choose_columns(names, shape.width, options, source_);
-        provenance_.density_column = columns_.density;
-        provenance_.columns = kept_names(columns_.names);
+        tell_columns(provenance_, columns_, options);
         std::string head(shape.offset, '\0');
         feed_->read(head);
     }
@@ -365,6 +366,11 @@ class JoinedStream final : public PointStream {
     bool shards_ = true;  ///< all files so far are shards of one set
 };
 
+/// The last column of a file, for messages.
+std::string told_column(const Provenance& meta) {
+    return meta.density_column.empty() ? "a coordinate" : "a " + meta.density_column;
+}
+
 /// The words of a column, for messages.
 std::string words_of(const Levels& levels, const std::string& column) {
     const auto found = std::ranges::find(levels, column, &Levels::value_type::first);
@@ -382,6 +388,10 @@ void require_alike(const JoinedFile& file, const JoinedFile& first) {
     if (meta.domain != before.domain)
         fail(ErrorKind::input, "{}: its points are on {}; those before are on {}", name,
              meta.domain, before.domain);
+    if (meta.density_column != before.density_column)
+        fail_with_hint(ErrorKind::input, "--column picks the coordinates",
+                       "{}: its last column is {}; that of {} is {}", name, told_column(meta),
+                       first.name, told_column(before));
     const auto names = names_of(meta, dimension);
     const auto others = names_of(before, first.dimension);
     const auto [at, other] = std::ranges::mismatch(names, others);
@@ -437,7 +447,7 @@ std::vector<PointSet> PointStream::read_all(const RunContext& run) {
         }
         sets.emplace_back(std::move(rows), d);
     }
-    tell_origin(sets, provenance());
+    tell_origin(sets, provenance(), set_numbers());
     return sets;
 }
 
@@ -491,7 +501,20 @@ std::unique_ptr<PointStream> open_points(std::unique_ptr<Feed> feed, const std::
     ReadOptions inner = options;
     if (inner.source == "-") inner.source = path;
     inner.single = options.single || extension_is_single(path);
-    const auto beside = usable_beside(path, options, run);
+    auto beside = usable_beside(path, options, run);
+    const auto not_used = [&](const std::string& why) {
+        run.notify(fmt::format("{}: not used, since {}", meta_path(path), why));
+    };
+    const std::string others = "it is of other points";
+    if (beside && !beside->begins(feed->front())) {
+        const bool raw = (format ? *format : format_for(path, feed->front())).name == "bin";
+        if (raw && !options.dimension)
+            fail_with_hint(ErrorKind::input, stale_hint(path),
+                           "{}: its first bytes are not those that {} tells of", path,
+                           meta_path(path));
+        not_used(others);
+        beside.reset();
+    }
     if (beside) {
         if (!format && !format_of_extension(path)) format = &format_named(beside->of);
         inner.beside = &*beside;
@@ -507,10 +530,8 @@ std::unique_ptr<PointStream> open_points(std::unique_ptr<Feed> feed, const std::
             read_sets(feed->ends_in_front() ? feed->front() : whole, path, inner, run, format));
     }
     if (beside && points->provenance().count == 0)
-        run.notify(fmt::format("{}: not used, since {}", meta_path(path),
-                               beside->sets == 0
-                                   ? "it does not state where its sets of different sizes end"
-                                   : "it is of other points"));
+        not_used(beside->sets == 0 ? "it does not state where its sets of different sizes end"
+                                   : others);
     return points;
 }
 

@@ -256,11 +256,6 @@ void write(const std::string& path, std::span<const PointSet> sets, const WriteO
         fail(ErrorKind::usage, "a precision of {} is outside [0, 1000]", *options.precision);
     std::vector<PointSet> copies;
     for (const PointSet& set : sets) copies.push_back(checked(set));
-    // The file gets the provenance of the first set; sets of different commands lose their recipe.
-    if (std::ranges::any_of(sets, [&](const PointSet& set) {
-            return set.provenance.command != sets.front().provenance.command;
-        }))
-        copies.front().provenance = without_making(copies.front().provenance);
     write_sets(std::move(copies), target, run);
 } catch (...) {
     throw_to_caller();

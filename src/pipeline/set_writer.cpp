@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 
 #include "core/error.hpp"
@@ -14,6 +15,7 @@
 #include "io/carried_meta.hpp"
 #include "io/columns.hpp"
 #include "io/output.hpp"
+#include "pipeline/warping.hpp"
 
 namespace stipple {
 namespace {
@@ -100,7 +102,10 @@ Layout layout_of(SetsHead head, const SetStream& stream, const Target& target) {
     Provenance& meta = layout.provenance;
     if (target.precision && !target.format->traits.binary)
         meta.precision = std::min(meta.precision.value_or(*target.precision), *target.precision);
-    meta.single |= target.single && target.format->traits.binary;
+    if (target.single && target.format->traits.binary) {
+        if (meta.precision) record_cuts(meta);  // to float32 after the digits
+        meta.single = true;
+    }
     return layout;
 }
 
@@ -227,6 +232,9 @@ std::vector<double> with_columns(std::span<const double> rows, std::span<const d
         // Without warps, points are uniform on their domain: the unit cube, or a box to which it
         // was scaled.
         if (!warped) volume = stream.domain->measure();
+        if (!(volume > 0 && volume < std::numeric_limits<double>::infinity()))
+            fail(ErrorKind::input, "--with-{}: the volume of the bounds is not a double above 0",
+                 columns.names().front());
         densities = own;
     }
     std::vector<double> wide;

@@ -8,16 +8,30 @@
 
 #include "core/bytes/spool.hpp"
 #include "core/parallel.hpp"
+#include "io/columns.hpp"
+#include "pipeline/warping.hpp"
 
 namespace stipple {
 namespace {
 
-/// Reduces the metadata of several sets to their common part: removes options that differ, such as
-/// a radius computed for each set.
-void keep_common(Provenance& common, const Provenance& other) {
-    std::erase_if(common.options, [&](const auto& option) {
-        return std::ranges::find(other.options, option) == other.options.end();
-    });
+/// Reduces the metadata of several sets to what holds for all: removes options and results of
+/// searches that differ, such as a radius computed for each set, and the way the sets were made
+/// unless readers of the file find that of `other` from it and the set's place in the file.
+void keep_common(Provenance& common, const Provenance& other, std::uint64_t place) {
+    const auto keep_equal = [](auto& pairs, const auto& others) {
+        std::erase_if(pairs, [&](const auto& pair) {
+            return std::ranges::find(others, pair) == others.end();
+        });
+    };
+    keep_equal(common.options, other.options);
+    keep_equal(common.found, other.found);
+    const std::uint64_t seed = io::provenance_of_set(common, place).seed;
+    const bool seeded = seed != common.seed;  // else the seeds of scrambles in the warps differ
+    if (other.generator != common.generator || other.command != common.command ||
+        other.start != common.start || other.shard != common.shard ||
+        (seeded && (other.seed != seed || other.warps != common.warps)))
+        common = without_making(common);
+    if (other.domain != common.domain) common.domain.clear();
 }
 
 using SetAt = std::function<const PointSet&(std::size_t set)>;
@@ -42,7 +56,7 @@ SetStream in_memory(std::size_t sets, const SetAt& at, bool one_at_a_time, const
         all.extent = bounding_box(set.flat(), set.domain->bounding_box());
         for (std::size_t i = first; i < last; ++i) {
             all.counts.push_back(at(i).count());
-            keep_common(all.provenance, at(i).provenance);
+            keep_common(all.provenance, at(i).provenance, i - first);
         }
         return all;
     };
@@ -123,7 +137,7 @@ SetStream waiting(const SetStream& made, const RunContext& run,
     for (std::size_t set = 0; set < made.sets; ++set) {
         const Provenance provenance = made.head(set, set + 1).provenance;
         if (set == 0) all.provenance = provenance;
-        keep_common(all.provenance, provenance);
+        keep_common(all.provenance, provenance, set);
         const OpenSet open = made.open(set, run);
         all.counts.push_back(open.count);
         take(open.side_files);

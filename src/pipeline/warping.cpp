@@ -22,10 +22,7 @@ namespace {
 void record_warp(PointSet& set, const WarpChain& chain, bool inverse,
                  const std::vector<std::pair<std::string, std::string>>& inputs) {
     Provenance& meta = set.provenance;
-    if (meta.single) meta.warps.emplace_back(cut_to_single);
-    if (meta.precision) meta.warps.push_back(fmt::format("{}{}", cut_to_digits, *meta.precision));
-    meta.single = false;
-    meta.precision.reset();
+    record_cuts(meta);
     const std::string warp = std::string(inverse ? inverse_of : "") + chain.record().specs.front();
     for (const auto& input : inputs)
         if (std::ranges::find(meta.inputs, input) == meta.inputs.end())
@@ -211,6 +208,13 @@ SetStream stream_of(io::PointStream& points, const DomainPtr& on) {
 
 }  // namespace
 
+void record_cuts(Provenance& meta) {
+    if (meta.single) meta.warps.emplace_back(cut_to_single);
+    if (meta.precision) meta.warps.push_back(fmt::format("{}{}", cut_to_digits, *meta.precision));
+    meta.single = false;
+    meta.precision.reset();
+}
+
 Provenance without_making(const Provenance& meta) {
     Provenance known;
     known.columns = meta.columns;
@@ -322,6 +326,14 @@ void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, st
         fail_with_hint(
             ErrorKind::input, "--column picks the coordinates, which are then taken to be uniform",
             "the points have a column of densities; scrambles are for points with density 1");
+    for (const Generator& generator : generators::all())
+        if (const std::string& picked = sets.front().provenance.flaw;
+            generator.bases &&
+            picked.find(fmt::format("generator: \"{}\"", generator.name)) != std::string::npos)
+            run.notify(
+                fmt::format("--column picked coordinates of {}; the base of their digits is "
+                            "taken to be 2 unless base=B is given",
+                            generator.name));
     const auto scrambled = [&](std::size_t set) {
         const PointSet& points = sets[set / replications];
         Spec spec = scramble;

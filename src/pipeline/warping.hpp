@@ -31,6 +31,9 @@ struct Unwarped {
 /// unknown.
 std::vector<std::uint32_t> digit_bases(const Provenance& meta);
 
+/// Turns the truncation of a file's numbers into a step, after which others follow.
+void record_cuts(Provenance& meta);
+
 /// A provenance without the recipe: only names, levels, size and domain of the points.
 Provenance without_making(const Provenance& meta);
 

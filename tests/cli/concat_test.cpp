@@ -202,4 +202,14 @@ TEST(Concat, TakesTheProvenanceBesideBinaryFiles) {
     }
 }
 
+TEST(Concat, RefusesDensitiesBesideCoordinates) {
+    const Sandbox box;
+    box.write("p.csv", "x,y,pdf\n0.1,0.2,1\n");
+    box.write("q.txt", "0.3 0.4 0.9\n");
+    EXPECT_EQ(box.run({"convert", "p.csv", "q.txt", "--concat"}).err,
+              "stipple: q.txt: its last column is a coordinate; that of p.csv is a pdf; --column "
+              "picks the coordinates\n");
+    EXPECT_EQ(box.run({"convert", "q.txt", "p.csv", "--concat"}).code, 3);
+}
+
 }  // namespace stipple::testing::concat_test

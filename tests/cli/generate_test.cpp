@@ -724,4 +724,23 @@ TEST(Generate, BoundsAreOfTheCoordinatesThatNoWarpTakes) {
                    "poisson-disk measures its distances in the box");
 }
 
+// Products of some of the sides are no doubles, though that of all is.
+TEST(Generate, DensitiesInBoundsAreDoubles) {
+    const Sandbox box;
+    for (const char* column : {"--with-pdf", "--with-weight"}) {
+        const auto in = [&](const char* bounds) {
+            return box.run(
+                {"generate", "random", "-n", "1", "-d", "4", "--bounds", bounds, column});
+        };
+        for (const char* bounds :
+             {"0..1e-200,0..1e-200,0..1e200,0..1e200", "0..1e200,0..1e200,0..1e-200,0..1e-200"}) {
+            const std::string out = good(in(bounds));
+            EXPECT_NEAR(std::stod(out.substr(out.rfind(',') + 1)), 1, 1e-15) << bounds;
+        }
+        for (const char* bounds : {"0..1e-100", "0..1e100"})
+            EXPECT_EQ(in(bounds).err, std::string("stipple: ") + column +
+                                          ": the volume of the bounds is not a double above 0\n");
+    }
+}
+
 }  // namespace stipple::testing::generate_test

@@ -144,4 +144,91 @@ TEST(Provenance, BesideAFileMayBeOfOtherPoints) {
     }
 }
 
+// Raw numbers say themselves neither their type nor their sets.
+TEST(Provenance, BesideRawNumbersIsNotTakenForOthers) {
+    const Sandbox box;
+    good(
+        box.shell("stipple generate sobol -n 64 --dtype f32 --meta -o p.bin; "
+                  "stipple generate random -n 32 -o p.bin"));
+    const Outcome outcome = box.run({"convert", "p.bin", "-f", "csv"});
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("p.bin: its first bytes are not those that p.bin.meta.json "
+                                       "tells of; p.bin.meta.json states their number"));
+    EXPECT_EQ(good(box.shell("stipple convert -q p.bin -d 2 -f csv")),
+              good(box.run({"generate", "random", "-n", "32"})));
+}
+
+// Sets are taken out of files, and files are joined, by programs that know nothing of provenance.
+TEST(Provenance, IsThatOfEachSet) {
+    const Sandbox box;
+    good(
+        box.shell("stipple generate random -n 4 -m 4 -s 10 --meta -o m.csv; "
+                  "grep -E '^#|^set|^2' m.csv > two.csv; grep -E '^#|^set|^[13]' m.csv > gap.csv; "
+                  "stipple generate random -n 4 -m 4 -s 10 -o m.jsonl; "
+                  "tail -n 5 m.jsonl > last.jsonl; "
+                  "stipple generate sobol -n 4 -s 7 -w disk -o s.jsonl; "
+                  "cat last.jsonl s.jsonl > both.jsonl; "
+                  "stipple convert gap.csv -o gap.json; stipple convert both.jsonl -o both.json"));
+    EXPECT_THAT(good(box.run({"reproduce", "two.csv"})), HasSubstr("identical: 4 points"));
+    EXPECT_THAT(good(box.run({"reproduce", "last.jsonl"})), HasSubstr("identical: 4 points"));
+    EXPECT_THAT(good(box.run({"convert", "last.jsonl", "-f", "json"})), HasSubstr("\"seed\":13"));
+    EXPECT_THAT(box.read("gap.json"), HasSubstr(R"("generator":"","options":{},"seed":null)"));
+    EXPECT_THAT(box.read("both.json"), HasSubstr(R"("generator":"","options":{},"seed":null)"));
+    const auto reports = nlohmann::json::parse(
+        good(box.run({"analyze", "moments", "both.jsonl", "--format", "json"})));
+    EXPECT_EQ(reports.at(0)["input"]["domain"], "unit-cube");
+    EXPECT_EQ(reports.at(1)["input"]["domain"], "disk");
+}
+
+TEST(Provenance, OfSearchesIsWhatHoldsForAllSets) {
+    const Sandbox box;
+    EXPECT_THAT(good(box.run({"generate", "subset", "-n", "16", "--format", "json"})),
+                HasSubstr("\"found\""));
+    EXPECT_THAT(good(box.run({"generate", "subset", "-n", "16", "-m", "2", "--format", "json"})),
+                ::testing::Not(HasSubstr("\"found\"")));
+}
+
+TEST(Provenance, DoesNotTellOfColumnsThatWerePicked) {
+    const Sandbox box;
+    good(box.run({"generate", "halton", "-n", "27", "--meta", "-o", "h.csv"}));
+    good(box.run({"generate", "halton", "-n", "27", "--meta", "-o", "h.npy"}));
+    good(box.run({"generate", "halton", "-n", "27", "-o", "h.json"}));
+    for (const char* file : {"h.csv", "h.npy", "h.json"})
+        for (const char* columns : {"y", "y,x"})
+            EXPECT_THAT(good(box.run({"convert", file, "--column", columns, "-f", "json"})),
+                        HasSubstr(R"("generator":"","options":{},"seed":null)"))
+                << file << " " << columns;
+    good(box.run({"convert", "h.csv", "--column", "x,y", "--meta", "-o", "same.csv"}));
+    EXPECT_THAT(good(box.run({"reproduce", "same.csv"})), HasSubstr("identical"));
+    // Numbers in base 3, of which scrambles must not be told that they are in the first's base 2.
+    const Outcome scrambled = box.run({"warp", "owen", "h.csv", "--column", "y", "-f", "json"});
+    EXPECT_THAT(scrambled.out, HasSubstr(R"("warps":["owen:seed=1"])"));
+    EXPECT_EQ(scrambled.err,
+              "stipple: note: --column picked coordinates of halton; the base of their digits is "
+              "taken to be 2 unless base=B is given\n");
+}
+
+TEST(Provenance, SaysInWhichOrderNumbersWereCut) {
+    const Sandbox box;
+    good(
+        box.shell("stipple generate random -n 500 --precision 8 --meta -o p.csv; "
+                  "stipple convert p.csv --dtype f32 --meta -o p.npy; "
+                  "stipple convert p.npy --precision 3 --meta -o q.csv; "
+                  "stipple convert q.csv --dtype f32 --meta -o q.npy"));
+    for (const char* file : {"p.npy", "q.csv", "q.npy"})
+        EXPECT_THAT(good(box.run({"reproduce", file})), HasSubstr("identical: 500 points"));
+}
+
+TEST(Provenance, OfRowsWithoutNamesHasTheirLength) {
+    const Sandbox box;
+    good(box.run({"generate", "random", "-n", "9", "--with-pdf", "--meta", "-o", "p.txt"}));
+    const Outcome outcome = box.run({"analyze", "moments", "p.txt"});
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_EQ(outcome.err,
+              "stipple: p.txt: the rows have 3 numbers, but the provenance above them states 2 "
+              "coordinates; --column picks the coordinates by number\n");
+    EXPECT_EQ(good(box.run({"convert", "p.txt", "--column", "1,2", "-f", "csv"})),
+              good(box.run({"generate", "random", "-n", "9"})));
+}
+
 }  // namespace stipple::testing::provenance_test

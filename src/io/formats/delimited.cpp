@@ -15,7 +15,6 @@
 #include <memory>
 #include <optional>
 #include <set>
-#include <unordered_map>
 #include <unordered_set>
 
 #include "core/error.hpp"
@@ -243,7 +242,7 @@ class RowReader {
         if (role < columns_.dimension) {
             row[role] = value;
         } else if (role == Columns::set_number) {
-            if (value < 0 || value != std::floor(value)) return false;
+            if (!is_set_number(value)) return false;
             set = value;
         }
         return true;
@@ -471,33 +470,6 @@ Top read_top(const SourceText& text) {
 
 namespace {
 
-/// Groups rows by set number; sets are ordered by their first rows.
-std::vector<PointSet> gather_sets(Rows rows, std::size_t dimension, const Provenance& provenance) {
-    std::vector<Mark>& marks = rows.marks;
-    // Removes the marks of `#` lines, which do not separate the sets of a table, and repetitions:
-    // every block marks its first set number again.
-    std::erase_if(marks, [](const Mark& mark) { return std::isnan(mark.number); });
-    const auto same = [](const Mark& a, const Mark& b) { return a.number == b.number; };
-    marks.erase(std::unique(marks.begin(), marks.end(), same), marks.end());
-    std::unordered_map<double, std::size_t> order;
-    for (const Mark& mark : marks) order.try_emplace(mark.number, order.size());
-    if (order.size() == 1) return cut_sets(std::move(rows.numbers), dimension, {0}, provenance);
-
-    std::vector<std::vector<double>> sets(order.size());
-    for (std::size_t m = 0; m < marks.size(); ++m) {
-        const std::size_t first = marks[m].row * dimension;
-        const std::size_t last =
-            m + 1 < marks.size() ? marks[m + 1].row * dimension : rows.numbers.size();
-        const auto part = std::span(rows.numbers).subspan(first, last - first);
-        auto& set = sets[order.at(marks[m].number)];
-        set.insert(set.end(), part.begin(), part.end());
-    }
-    std::vector<PointSet> result;
-    for (auto& set : sets) result.emplace_back(std::move(set), dimension);
-    tell_origin(result, provenance);
-    return result;
-}
-
 /// Results of reading the top of a table.
 struct TableHead {
     Top top;
@@ -507,6 +479,7 @@ struct TableHead {
     bool row_names = false;      ///< the first column has no name and holds row names
     std::string counter = {};    ///< name of a coordinate column that numbers the rows
     std::string measure = {};    ///< column pdf or weight, if its use must be reported
+    std::string doubt = {};      ///< sentence on what may be read in another way
     const char* body = nullptr;  ///< start of the rows
     bool words_to_find = false;  ///< the first row has words that are not known levels
     /// Sentences on replaced names.
@@ -520,6 +493,7 @@ struct TableHead {
                 fmt::format("{}: the first column has no name; it is read as row names and left "
                             "out; --column picks columns by number",
                             source_name(source)));
+        if (!doubt.empty()) run.notify(fmt::format("{}: {}", source_name(source), doubt));
         if (!measure.empty())
             run.notify(
                 fmt::format("{}: the column '{}' is used as the {} of the points, not as a "
@@ -559,24 +533,34 @@ bool counts_rows(const SourceText& text, const char* body, char separator) {
     return counts && rows >= few && (first == 0 || first == 1);
 }
 
-/// Whether the first fractional number has a decimal comma. Skips columns with level names.
-bool has_decimal_comma(const SourceText& text, const TableHead& head) {
-    bool comma = false;
+/// Whether a number with a decimal comma may be one of thousands: 1,234.
+bool may_be_thousands(std::string_view text) {
+    const auto comma = text.find(',');
+    return comma <= 3 && text.size() == comma + 4 && text[0] >= '1' && text[0] <= '9';
+}
+
+/// The first fractional number if it has a decimal comma, or a later one that cannot be of
+/// thousands; otherwise empty. Skips columns with level names.
+std::string_view number_with_comma(const SourceText& text, const TableHead& head) {
+    std::string_view found;
     const char separator = head.dialect.separator;
     const auto& words = head.columns.words;
-    if (separator == ',' || separator == ' ') return comma;
+    if (separator == ',' || separator == ' ') return found;
     look_at_rows(text, head.body, separator, [&](const std::vector<Field>& fields) {
         for (std::size_t c = 0; c < std::min(fields.size(), head.columns.width()); ++c) {
             const Field& field = fields[c];
             const std::size_t role = head.columns.role[c];
             if (role < words.size() && !words[role].empty()) continue;
-            comma = !with_point(field.text).empty();
-            if (comma || (is_number(field.text) && field.text.find('.') != std::string_view::npos))
+            const bool comma = !with_point(field.text).empty();
+            if (comma) found = field.text;
+            if (comma ? !may_be_thousands(found)
+                      : found.empty() && is_number(field.text) &&
+                            field.text.find('.') != std::string_view::npos)
                 return false;
         }
         return true;
     });
-    return comma;
+    return found;
 }
 
 /// Whether a field holds a level name, rather than a misspelled number.
@@ -653,6 +637,37 @@ void take_words(TableHead& head, const SourceText& text) {
     });
 }
 
+/// Sentence on a first line that may be meant otherwise: names that begin like numbers, or a point
+/// 0, 1, 2, ..., by which some programs number columns. Empty for other lines.
+std::string doubt_about(const std::vector<Field>& fields, bool names) {
+    const auto looks_like_number = [](const Field& field) {
+        const auto at = field.text.find_first_not_of("+-.$");
+        return at < 3 && field.text[at] >= '0' && field.text[at] <= '9';
+    };
+    if (names && std::ranges::all_of(fields, looks_like_number))
+        return fmt::format(
+            "the first line is read as names of columns, though {} begins like a "
+            "number",
+            shown(fields[0].text));
+    bool counts = !names && fields.size() > 1;
+    for (std::size_t k = 0; k < fields.size(); ++k) counts &= fields[k].text == std::to_string(k);
+    return counts ? "the first line is read as a point; remove it if it numbers the columns" : "";
+}
+
+/// Checks that rows without names are as long as the provenance above them tells. @throws
+/// Error(input)
+void require_told_width(const SourceText& text, const TableHead& head, const ReadOptions& options) {
+    const std::size_t told = head.top.provenance.dimension;
+    const std::size_t found = head.columns.dimension - (options.strengths.empty() ? 0 : 1);
+    const bool asked =
+        !options.columns.empty() || options.dimension || options.all_columns || options.any_count;
+    if (!head.names && !asked && told != 0 && told != found)
+        text.refuse_whole(fmt::format("the rows have {} numbers, but the provenance above them "
+                                      "states {} coordinates",
+                                      found, told),
+                          "--column picks the coordinates by number");
+}
+
 TableHead read_head(const SourceText& text, const ReadOptions& options) {
     TableHead head{.top = read_top(text), .dialect = {}, .columns = {}};
     if (!options.levels.empty()) head.top.provenance.levels = options.levels;
@@ -671,14 +686,18 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
     head.dialect.model_line = text.line_of(head.top.first);
     head.columns = choose_columns(names, fields.size(), options,
                                   fmt::format("{}:{}", text.source(), head.dialect.model_line));
-    head.top.provenance.density_column = head.columns.density;
     head.replaced = replace_names(head.columns.names, options.gaps);
     if (options.all_columns) head.replaced.clear();
-    head.top.provenance.columns = kept_names(head.columns.names);
+    require_told_width(text, head, options);
+    head.doubt = doubt_about(fields, head.names);
+    tell_columns(head.top.provenance, head.columns, options);
     head.top.provenance.named = head.names;
     head.body = head.names ? head.top.next : head.top.first;
     if (head.names) take_words(head, text);
-    head.dialect.comma = has_decimal_comma(text, head);
+    const std::string_view comma = number_with_comma(text, head);
+    head.dialect.comma = !comma.empty();
+    if (may_be_thousands(comma))
+        head.doubt = fmt::format("{} is read as {}, not as thousands", comma, with_point(comma));
     if (head.names && !head.row_names && fields.size() > 1 && options.columns.empty() &&
         !options.all_columns && names[0] != "set" &&
         counts_rows(text, head.body, head.dialect.separator))
@@ -713,6 +732,8 @@ class DelimitedStream final : public PointStream {
 
     std::size_t dimension() const override { return columns_.dimension; }
     const Provenance& provenance() const override { return provenance_; }
+
+    std::vector<std::uint64_t> set_numbers() const override { return numbers_; }
 
     /// With a header, a column holds the set numbers; without one, `#` lines separate the sets.
     bool looks_like_one_set() const override { return names_ && !numbered(); }
@@ -809,6 +830,7 @@ class DelimitedStream final : public PointStream {
         for (const Mark& mark : rows_.marks) {
             if (std::isnan(mark.number) || mark.number == number_) continue;
             const std::size_t line = text.line_of(mark.at);
+            numbers_.push_back(static_cast<std::uint64_t>(mark.number));
             if (!seen_.insert(mark.number).second)
                 fail_with_hint(ErrorKind::input, "sort the rows by their set",
                                "{}:{}:1: set {} begins again; in text of more than {} MiB the rows "
@@ -847,8 +869,9 @@ class DelimitedStream final : public PointStream {
     std::uint64_t at_ = 0;          ///< index of the next row in the stream
     std::vector<Cut> marks_;
     Cut last_cut_{0, 0};
-    double number_ = unknown;          ///< number of the current set, from the set column
-    std::unordered_set<double> seen_;  ///< set numbers seen so far
+    double number_ = unknown;             ///< number of the current set, from the set column
+    std::unordered_set<double> seen_;     ///< set numbers seen so far
+    std::vector<std::uint64_t> numbers_;  ///< the same, in order
 };
 
 }  // namespace
@@ -866,7 +889,8 @@ std::vector<PointSet> read_delimited(std::string_view bytes, const ReadOptions& 
             "the file holds only a header (line {}); expected points below it, one per line",
             head.dialect.model_line));
     if (columns.has(Columns::set_number))
-        return gather_sets(std::move(rows), columns.dimension, head.top.provenance);
+        return gather_sets(std::move(rows.numbers), columns.dimension, std::move(rows.marks),
+                           head.top.provenance);
     const auto starts = set_starts(text, rows, columns.dimension);
     return cut_sets(std::move(rows.numbers), columns.dimension, starts, head.top.provenance);
 }

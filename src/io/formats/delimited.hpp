@@ -25,13 +25,6 @@ struct Dialect {
     std::size_t model_line = 0;  ///< line that defined the columns, for messages; 0: none
 };
 
-/// Boundary between rows where a new set may begin: a separator line, or another set number.
-struct Mark {
-    std::uint64_t row;  ///< index of the first row after the mark
-    const char* at;
-    double number;  ///< the set's number; NaN for lines between rows
-};
-
 struct Rows {
     std::vector<double> numbers;  ///< columns.dimension numbers per row
     std::vector<Mark> marks;

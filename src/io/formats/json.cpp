@@ -315,6 +315,22 @@ class Reader {
     std::vector<const char*> words_;      ///< for each column, the first value that is not a number
 };
 
+/// Marks where the first column, the number of the set, changes. @throws Error(input)
+std::vector<Mark> marks_of(const SourceText& text, std::span<const double> table,
+                           std::size_t width) {
+    std::vector<Mark> marks;
+    for (std::size_t i = 0; i < table.size(); i += width) {
+        if (!is_set_number(table[i]))
+            text.refuse_whole(
+                fmt::format("point {}: {} is not the number of a set; expected 0, 1, "
+                            "2...",
+                            i / width, table[i]));
+        if (i == 0 || table[i] != table[i - width])
+            marks.push_back({.row = i / width, .at = text.begin(), .number = table[i]});
+    }
+    return marks;
+}
+
 std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
                            const RunContext& run) {
     const SourceText text(bytes, options.source);
@@ -322,9 +338,13 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
     reader.read();
     const Columns columns = json_columns(text, reader.head, reader.width, options, run);
     reader.require_numbers(columns);
+    const bool numbered = columns.has(Columns::set_number) && reader.starts.size() == 1;
+    auto marks = numbered ? marks_of(text, reader.numbers, reader.width) : std::vector<Mark>();
     std::vector<double> numbers = keep_coordinates(std::move(reader.numbers), columns);
-    std::vector<PointSet> sets =
-        cut_sets(std::move(numbers), columns.dimension, reader.starts, reader.head.provenance);
+    std::vector<PointSet> sets = numbered ? gather_sets(std::move(numbers), columns.dimension,
+                                                        std::move(marks), reader.head.provenance)
+                                          : cut_sets(std::move(numbers), columns.dimension,
+                                                     reader.starts, reader.head.provenance);
     std::vector<std::uint64_t> counts;
     for (const PointSet& set : sets) counts.push_back(set.count());
     if (!options.any_count) check_counts(text, reader.head, counts);

@@ -24,9 +24,9 @@ std::vector<std::uint64_t> whole_numbers(const SourceText& text, const char* at,
 
 }  // namespace
 
-std::string json_head(const Layout& layout, const Counts& counts) {
+std::string json_head(const Layout& layout, const Counts& counts, std::uint64_t number) {
     Json head{{"format", "stipple.points"}, {"version", 1}};
-    head["meta"] = to_json(layout.provenance);
+    head["meta"] = to_json(provenance_of_set(layout.provenance, number));
     head["dimension"] = layout.dimension;
     Json& count = head["count"] = Json::array();
     if (counts.are_equal() && counts.size() > 0)
@@ -93,10 +93,9 @@ Columns json_columns(const SourceText& text, JsonHead& head, std::size_t width,
                                     *head.dimension, columns.dimension));
     }
     Columns columns = choose_columns(head.columns, width, options, text.source());
-    head.provenance.density_column = columns.density;
     for (const std::string& sentence : replace_names(columns.names, options.gaps))
         run.notify(fmt::format("{}: {}", text.source(), sentence));
-    head.provenance.columns = kept_names(columns.names);
+    tell_columns(head.provenance, columns, options);
     head.provenance.named = !columns.names.empty();
     return columns;
 }

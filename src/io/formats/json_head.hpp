@@ -20,7 +20,8 @@
 namespace stipple::io {
 
 /// Returns the head as text, without a closing brace. Extras add "columns":["x","y","pdf"].
-std::string json_head(const Layout& layout, const Counts& counts);
+/// @param number in the file of the set of which the provenance is
+std::string json_head(const Layout& layout, const Counts& counts, std::uint64_t number = 0);
 
 struct JsonHead {
     Provenance provenance = {};

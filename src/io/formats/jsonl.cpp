@@ -24,7 +24,7 @@ namespace stipple::io::jsonl {
 namespace {
 
 void begin_set(const Layout& layout, std::size_t set, std::string& out) {
-    out += json_head(layout, {layout.counts[set]});
+    out += json_head(layout, {layout.counts[set]}, set);
     if (layout.many_sets()) out += fmt::format(",\"set\":{}", set);
     out += "}\n";
 }
@@ -64,13 +64,24 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
     const Dialect dialect{.separator = ',', .brackets = true, .model_line = text.line_of(model)};
     Rows rows = read_rows(text, top.first, columns, dialect, run);
 
+    if (columns.has(Columns::set_number))
+        return gather_sets(std::move(rows.numbers), columns.dimension, std::move(rows.marks),
+                           head.provenance);
     const std::vector<std::uint64_t> starts = set_starts(text, rows, columns.dimension);
     std::vector<PointSet> sets =
         cut_sets(std::move(rows.numbers), columns.dimension, starts, head.provenance);
     for (const Mark& mark : rows.marks) {
-        if (options.any_count) break;
-        const auto set = std::ranges::find(starts, mark.row) - starts.begin();
-        check_counts(text, head_at(text, mark.at), {sets[static_cast<std::size_t>(set)].count()});
+        PointSet& set =
+            sets[static_cast<std::size_t>(std::ranges::find(starts, mark.row) - starts.begin())];
+        JsonHead own = head_at(text, mark.at);
+        if (!own.columns.empty() && own.columns != head.columns)
+            text.refuse(mark.at, fmt::format("the columns are {}; those of the first set are {}",
+                                             join(own.columns, ", "), join(head.columns, ", ")));
+        if (!options.any_count) check_counts(text, own, {set.count()});
+        if (&set == &sets[0] || own.provenance.generator.empty()) continue;
+        tell_columns(own.provenance, columns, options);
+        own.provenance.named = set.provenance.named;
+        set.provenance = std::move(own.provenance);
     }
     return sets;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "io/columns.hpp"
 #include "io/files.hpp"
 #include "io/io_support.hpp"
 #include "io/provenance.hpp"
@@ -358,6 +359,35 @@ TEST(Csv, KeepsTheNamesOfColumns) {
     const std::string text = written("csv", {points_of({{1, 2}})}, layout);
     EXPECT_EQ(text, "age,\"wages, gross\"\n1,2\n");
     EXPECT_EQ(names(text), layout.provenance.columns);
+}
+
+TEST(Csv, SaysWhatAFirstLineMayBe) {
+    const auto told = [](std::string_view text) {
+        std::string all;
+        read_as("csv", text, {}, {.note = [&](const std::string& said) { all += said; }});
+        return all;
+    };
+    EXPECT_EQ(told("0.5f\n0.25\n"),
+              "p: the first line is read as names of columns, though '0.5f' begins like a number");
+    EXPECT_EQ(told("0,1\n0.25,0.5\n"),
+              "p: the first line is read as a point; remove it if it numbers the columns");
+    EXPECT_EQ(told("x;y\n1,234;2\n5,678;9,123\n"), "p: 9,123 is read as 9.123, not as thousands");
+    EXPECT_EQ(told("x;y\n1,234;2\n5,678;0,123\n"), "");
+    EXPECT_EQ(told("x,2nd\n0.25,0.5\n"), "");
+    EXPECT_EQ(told("0,0\n0.25,0.5\n"), "");
+    EXPECT_EQ(told("0\n0.25\n"), "");
+}
+
+TEST(Csv, PicksNoneOfColumnsOfOneName) {
+    EXPECT_EQ(refusal("csv", "x,x,y\n1,2,3\n", {.columns = {"x"}}),
+              "usage: --column: p:1 has 2 columns 'x'; pick one by its number");
+    EXPECT_EQ(read_as("csv", "x,x,y\n1,2,3\n", {.columns = {"2", "y"}}).at(0), points_of({{2, 3}}));
+}
+
+TEST(Csv, WeightsHaveADensity) {
+    PointSet tiny = read_as("csv", "x,weight\n0.5,1e-310\n", {.densities = true}).at(0);
+    EXPECT_EQ(error_of([&] { io::take_densities(tiny); }),
+              "input: point 0: its weight is 1e-310; expected a number whose inverse is a double");
 }
 
 }  // namespace stipple::testing::csv_test

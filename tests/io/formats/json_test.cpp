@@ -218,4 +218,18 @@ TEST(Json, KeepsTheNamesOfColumns) {
               (std::vector<std::string>{"age", "y"}));
 }
 
+TEST(Json, AColumnNumbersTheSets) {
+    const std::vector<PointSet> sets{points_of({{0.1, 0.2}, {0.3, 0.4}}), points_of({{0.5, 0.6}})};
+    for (const char* text :
+         {R"([{"set":1,"x":0.1,"y":0.2},{"set":0,"x":0.5,"y":0.6},{"set":1,"x":0.3,"y":0.4}])",
+          R"({"columns":["set","x","y"],"points":[[1,0.1,0.2],[0,0.5,0.6],[1,0.3,0.4]]})"})
+        EXPECT_EQ(read_as("json", text), sets) << text;
+    EXPECT_EQ(read_as("jsonl",
+                      "{\"columns\":[\"set\",\"x\",\"y\"]}\n[1,0.1,0.2]\n[0,0.5,0.6]\n"
+                      "[1,0.3,0.4]\n"),
+              sets);
+    EXPECT_EQ(refusal("json", R"([{"set":0.5,"x":0.1}])"),
+              "input: p: point 0: 0.5 is not the number of a set; expected 0, 1, 2...");
+}
+
 }  // namespace stipple::testing::json_test

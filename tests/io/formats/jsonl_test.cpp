@@ -83,4 +83,18 @@ TEST(Jsonl, RefusesObjectsThatSayOtherwise) {
     EXPECT_EQ(refused(""), "input: p: the file is empty; expected points, one per line");
 }
 
+TEST(Jsonl, EverySetHasItsProvenance) {
+    const std::vector<PointSet> sets{two, points_of({{1, 1}})};
+    Provenance made = some_provenance();
+    made.seed = 5;
+    const std::string text = written("jsonl", sets, {.provenance = made});
+    EXPECT_NE(text.find("\"seed\":6"), std::string::npos);
+    EXPECT_EQ(read_as("jsonl", text).at(1).provenance.seed, 6U);
+    EXPECT_EQ(read_as("jsonl", text + text).at(2).provenance.seed, 5U);
+    EXPECT_EQ(refusal("jsonl",
+                      "{\"columns\":[\"x\",\"y\"]}\n[1,2]\n{\"columns\":[\"y\",\"x\"]}\n"
+                      "[3,4]\n"),
+              "input: p:3:1: the columns are y, x; those of the first set are x, y");
+}
+
 }  // namespace stipple::testing::jsonl_test
