@@ -638,8 +638,8 @@ void take_words(TableHead& head, const SourceText& text) {
 }
 
 /// Sentence on a first line that may be meant otherwise: names that begin like numbers, or a point
-/// 0, 1, 2, ..., by which some programs number columns. Empty for other lines.
-std::string doubt_about(const std::vector<Field>& fields, bool names) {
+/// 0, 1, 2, ... above fractions, by which some programs number columns. Empty for other lines.
+std::string doubt_about(const std::vector<Field>& fields, bool names, std::string_view below) {
     const auto looks_like_number = [](const Field& field) {
         const auto at = field.text.find_first_not_of("+-.$");
         return at < 3 && field.text[at] >= '0' && field.text[at] <= '9';
@@ -649,7 +649,7 @@ std::string doubt_about(const std::vector<Field>& fields, bool names) {
             "the first line is read as names of columns, though {} begins like a "
             "number",
             shown(fields[0].text));
-    bool counts = !names && fields.size() > 1;
+    bool counts = !names && fields.size() > 1 && below.find('.') != below.npos;
     for (std::size_t k = 0; k < fields.size(); ++k) counts &= fields[k].text == std::to_string(k);
     return counts ? "the first line is read as a point; remove it if it numbers the columns" : "";
 }
@@ -689,7 +689,7 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
     head.replaced = replace_names(head.columns.names, options.gaps);
     if (options.all_columns) head.replaced.clear();
     require_told_width(text, head, options);
-    head.doubt = doubt_about(fields, head.names);
+    head.doubt = doubt_about(fields, head.names, line_at(text, head.top.next));
     tell_columns(head.top.provenance, head.columns, options);
     head.top.provenance.named = head.names;
     head.body = head.names ? head.top.next : head.top.first;

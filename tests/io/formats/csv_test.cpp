@@ -364,7 +364,7 @@ TEST(Csv, KeepsTheNamesOfColumns) {
 TEST(Csv, SaysWhatAFirstLineMayBe) {
     const auto told = [](std::string_view text) {
         std::string all;
-        read_as("csv", text, {}, {.note = [&](const std::string& said) { all += said; }});
+        read_as("csv", text, {}, {.warn = [&](const std::string& said) { all += said; }});
         return all;
     };
     EXPECT_EQ(told("0.5f\n0.25\n"),
@@ -375,6 +375,8 @@ TEST(Csv, SaysWhatAFirstLineMayBe) {
     EXPECT_EQ(told("x;y\n1,234;2\n5,678;0,123\n"), "");
     EXPECT_EQ(told("x,2nd\n0.25,0.5\n"), "");
     EXPECT_EQ(told("0,0\n0.25,0.5\n"), "");
+    EXPECT_EQ(told("0,1\n2,3\n"), "");
+    EXPECT_EQ(told("0,1"), "");
     EXPECT_EQ(told("0\n0.25\n"), "");
 }
 
