@@ -408,9 +408,10 @@ static inline @key @key_in(unsigned base, unsigned dimension, uint64_t seed) {
     @key key;
     unsigned position, left;
     uint64_t power = 1, two[2] = {0, 0}, known = ~(uint64_t)0; /* two: numbers 2 known, 2 known + 1 */
+    uint64_t rest = ((uint64_t)1 << 62) - 1; /* the digits of numbers below 2^62 */
     key.base = base;
     key.end = 0;
-    for (position = 0; power < (uint64_t)1 << 62; ++position, power *= base) {
+    for (position = 0; rest > 0; ++position, power *= base, rest /= base) {
         unsigned char *images = key.images + position * base;
         for (left = 0; left < base; ++left) images[left] = (unsigned char)left;
         for (left = base; left > 1; --left) { /* Fisher and Yates's shuffle */

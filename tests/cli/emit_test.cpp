@@ -59,6 +59,15 @@ TEST(Emit, CommentsNameOptionsThatMatter) {
         EXPECT_THAT(code(fused), HasSubstr("with -ffp-contract=off")) << fused;
 }
 
+// Powers of these bases, and of 41 and 43, overflow to small numbers.
+TEST(Emit, TakesAnyBase) {
+    const Sandbox box;
+    for (const char* base : {"16", "256", "7168", "65536"})
+        EXPECT_THAT(good(box.run({"emit", "van-der-corput", "--base", base})), HasSubstr(base));
+    const std::string code = good(box.run({"emit", "halton:scramble=permutation", "-d", "14"}));
+    EXPECT_THAT(code, HasSubstr("images[516]"));  // 43 images for each of 12 digits
+}
+
 // A path cannot end the comment that it is in.
 TEST(Emit, CommentsStayComments) {
     const Sandbox box;
