@@ -509,11 +509,9 @@ std::string family_of(const Measurement& m) {
 Series series_over_count(const std::string& name, bool errors,
                          const std::map<std::uint64_t, std::vector<double>>& at) {
     Series series{.name = name, .marks = true};
-    for (auto [n, values] : at) {
-        if (errors)
-            for (double& v : values) v *= v;
+    for (const auto& [n, values] : at) {
         const SampleSummary sample = summarize(values);
-        const double mean = errors ? std::sqrt(sample.mean) : sample.mean;
+        const double mean = errors ? root_mean_square(values) : sample.mean;
         const double spread = errors || sample.count < 2 ? 0 : sample.standard_error;
         series.x.push_back(static_cast<double>(n));
         series.y.push_back(mean);

@@ -7,6 +7,8 @@
 #include <optional>
 #include <string_view>
 
+#include "math/functions/powers.hpp"
+
 namespace stipple {
 namespace {
 
@@ -34,6 +36,17 @@ Item shaped(Curve values, const Item& like) {
     return values.front();
 }
 
+/// Adds a product of steps to a sum of squares in units of `unit`, a power of two near the largest
+/// value: squares of tiny and huge numbers leave float64.
+void add_square(double& sum, double& unit, double value, double step, double rest) {
+    const double own = value == 0 ? 0 : unit_for(std::abs(value));
+    if (own > unit) {
+        sum *= unit / own * (unit / own);
+        unit = own;
+    }
+    if (step != 0) sum += step / unit * (rest / unit);
+}
+
 /// Merges an entry of the k-th report into its running mean; returns false to omit the entry.
 bool merge(Item& mean, Item& squares, const Item& item, double k);
 
@@ -59,18 +72,16 @@ bool merge(Item& mean, Item& squares, const Item& item, double k) {
     }
     const auto values = numbers(item);
     auto means = numbers(mean);
-    auto sums = numbers(squares);
     if (!values || !means) return mean == item;
     if (values->size() != means->size()) return false;
-    if (k == 1)
-        sums->assign(sums->size(), 0);
-    else
-        for (std::size_t i = 0; i < values->size(); ++i) {
-            const double step = (*values)[i] - (*means)[i];
-            (*means)[i] += step / k;
-            (*sums)[i] += step * ((*values)[i] - (*means)[i]);
-        }
-    squares = shaped(std::move(*sums), item);
+    if (k == 1) squares = Curve(std::holds_alternative<Grid>(item) ? 0 : 2 * values->size());
+    auto& sums = std::get<Curve>(squares);
+    for (std::size_t i = 0; i < values->size(); ++i) {
+        const double step = k == 1 ? 0 : (*values)[i] - (*means)[i];
+        if (k > 1) (*means)[i] += step / k;
+        if (sums.empty()) continue;
+        add_square(sums[2 * i], sums[2 * i + 1], (*values)[i], step, (*values)[i] - (*means)[i]);
+    }
     // Labels, such as the counts of prefixes, are not averaged.
     const bool label = std::holds_alternative<Report::Integers>(mean) && mean == item;
     if (!label) mean = shaped(std::move(*means), item);
@@ -112,9 +123,11 @@ Report errors_of(const Report& mean, const Report& squares, double divisor) {
         if (group && means) {
             Report part = errors_of(*means, *group, divisor);
             if (!part.entries().empty()) out.add(name, std::move(part));
-        } else if (auto sums = numbers(value); sums && !std::holds_alternative<Grid>(value)) {
-            for (double& sum : *sums) sum = std::sqrt(sum / divisor);
-            out.entries().push_back({name, shaped(std::move(*sums), value), unit});
+        } else if (const auto* sums = std::get_if<Curve>(&value); sums && !sums->empty()) {
+            Curve errors;
+            for (std::size_t i = 0; i < sums->size(); i += 2)
+                errors.push_back((*sums)[i + 1] * std::sqrt((*sums)[i] / divisor));
+            out.entries().push_back({name, shaped(std::move(errors), *item), unit});
         }
     }
     return out;

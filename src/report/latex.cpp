@@ -45,10 +45,14 @@ int exponent_of(double x, int digits) {
     return std::stoi(text.substr(text.find('e') + 1));
 }
 
-/// value / 10^exponent, even if the power of ten is beyond the range of double.
-double shifted(double value, int exponent) {
+/// value / 10^exponent with `digits` digits after the point, even if the power of ten is beyond the
+/// range of double; without the sign of 0.
+std::string shifted(double value, int exponent, int digits) {
     const int half = exponent / 2;
-    return value / std::pow(10.0, half) / std::pow(10.0, exponent - half);
+    const double number = value / std::pow(10.0, half) / std::pow(10.0, exponent - half);
+    const std::string text = fmt::format("{:.{}f}", number, digits);
+    return text.find_first_not_of("-0.") == std::string::npos && text[0] == '-' ? text.substr(1)
+                                                                                : text;
 }
 
 }  // namespace
@@ -76,8 +80,9 @@ std::string latex_number(double value, double half_width) {
     const bool scaled = first < -3 || first > 5;
     const int unit = scaled ? first : 0;
     const int digits = std::clamp(unit - last, 0, 15);
-    std::string text = fmt::format("{:.{}f}", shifted(value, unit), digits);
-    if (spread) text += fmt::format(" \\pm {:.{}f}", shifted(half_width, unit), digits);
+    std::string text = shifted(value, unit, digits);
+    if (scaled && !spread) text = fmt::format("{:.3e}", value), text.resize(text.find('e'));
+    if (spread) text += " \\pm " + shifted(half_width, unit, digits);
     if (!scaled) return "$" + text + "$";
     if (spread) text = "(" + text + ")";
     return fmt::format("${} \\times 10^{{{}}}$", text, first);

@@ -76,8 +76,10 @@ SampleSummary summarize(std::span<const double> sample) {
     s.median = quantile(sorted, 0.5);
     // The mean of equal numbers is one of them, not their rounded sum divided by n.
     const bool same = equal_but_for_rounding(sorted.front(), sorted.back());
-    s.mean =
-        same ? sorted[sorted.size() / 2] : std::accumulate(sample.begin(), sample.end(), 0.0) / n;
+    const double unit = scale_of(sample);  // the sum of the largest numbers is beyond float64
+    const auto add = [unit](double sum, double x) { return sum + x / unit; };
+    s.mean = same ? sorted[sorted.size() / 2]
+                  : unit * (std::accumulate(sample.begin(), sample.end(), 0.0, add) / n);
     if (sample.size() < 2) return s;
     if (same) {
         s.deviation = s.standard_error = 0;

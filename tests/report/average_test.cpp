@@ -88,6 +88,19 @@ TEST(ReportAverage, MeanAndStandardErrorByHand) {
     EXPECT_EQ(error.find("grid"), nullptr);
 }
 
+// Squares of the numbers are beyond float64.
+TEST(ReportAverage, StandardErrorsOfTinyAndHugeNumbers) {
+    for (const double size : {0x1p-1020, 0x1p-600, 1.0, 0x1p600, 0x1p1000}) {
+        ReportAverage average;
+        for (const double x : {1.0, 2.0, 6.0})
+            average.add(Report().add("curve", Report::Curve{x * size, x, (x - 1) / size}));
+        const Report error = average.standard_error(average.mean());
+        EXPECT_DOUBLE_EQ(error.curve("curve")[0], size * std::sqrt(14.0 / 6));
+        EXPECT_DOUBLE_EQ(error.curve("curve")[1], std::sqrt(14.0 / 6));
+        EXPECT_DOUBLE_EQ(error.curve("curve")[2], std::sqrt(14.0 / 6) / size);
+    }
+}
+
 TEST(ReportAverage, LeavesOutWhatReportsDisagreeOn) {
     ReportAverage average;
     average.add(sample(1, 1, "one"));

@@ -33,6 +33,10 @@ TEST(Latex, NumbersHaveTheDigitsThatTheirIntervalAllows) {
     EXPECT_EQ(latex_number(9.996e-7, 9.96e-8), "$(1.00 \\pm 0.10) \\times 10^{-6}$");
     EXPECT_EQ(latex_number(5e-324, unknown), "$4.941 \\times 10^{-324}$");
     EXPECT_EQ(latex_number(1.7e308, unknown), "$1.700 \\times 10^{308}$");
+    EXPECT_EQ(latex_number(9.9995e269, unknown), "$9.999 \\times 10^{269}$");  // below 9.9995
+    EXPECT_EQ(latex_number(-0.001, 5), "$0.0 \\pm 5.0$");
+    EXPECT_EQ(latex_number(-0.0, 0.5), "$0.00 \\pm 0.50$");
+    EXPECT_EQ(latex_number(-8e8, 6.1e11), "$(0.0 \\pm 6.1) \\times 10^{11}$");
     EXPECT_EQ(latex_number(64, unknown), "$64$");
     EXPECT_EQ(latex_number(0, unknown), "$0$");
     EXPECT_EQ(latex_number(unknown, unknown), "--");

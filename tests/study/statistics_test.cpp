@@ -49,6 +49,9 @@ TEST(Statistics, DoesNotDependOnTheScaleHoweverSmallOrLarge) {
         EXPECT_EQ(welch_test(x, y).degrees, welch_test(a, b).degrees);
         EXPECT_EQ(paired_test(x, y).p_value, paired_test(a, b).p_value);
     }
+    std::vector<double> huge = a;  // whose sum is beyond float64
+    for (double& v : huge) v = std::ldexp(v, 1020);
+    EXPECT_EQ(summarize(huge).mean, std::ldexp(summarize(a).mean, 1020));
 }
 
 // Expected values from SciPy: chi2.ppf(p, 5), p = 0.025 and 0.975, and the root of the mean square.
