@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 
 #include "core/error.hpp"
@@ -657,8 +658,12 @@ Bars histogram_between(std::vector<double> edges, std::span<const double> values
     for (const double value : values) {
         if (!(value >= bars.edges.front() && value <= bars.edges.back())) continue;
         ++inside;
-        const auto above = std::ranges::upper_bound(bars.edges, value) - bars.edges.begin();
-        ++bars.heights[std::min(static_cast<std::size_t>(above), bars.heights.size()) - 1];
+        auto above = std::ranges::upper_bound(bars.edges, value);
+        constexpr double slack = 1e-9;  // of a bin: edges are rounded, and values on them are above
+        if (above != bars.edges.end() && *above - value < slack * (*above - *std::prev(above)))
+            ++above;
+        const auto bin = static_cast<std::size_t>(above - bars.edges.begin());
+        ++bars.heights[std::min(bin, bars.heights.size()) - 1];
     }
     for (std::size_t i = 0; i < bars.heights.size(); ++i) {
         const double low = bars.edges[i];
@@ -715,10 +720,11 @@ Bars whole_histogram(std::span<const double> values, double low, double high, st
     const double begin = edges[0];
     const double end = std::floor(high) + 0.5;
     const auto bins = static_cast<double>(std::max(few, most));
-    log = log && end - begin > bins;
-    const double width = log ? std::log(end / begin) / bins : std::ceil((end - begin) / bins);
+    const bool merged = log && end - begin > bins;
+    const double width = merged ? std::log(end / begin) / bins : std::ceil((end - begin) / bins);
     for (double i = 1; edges.back() < end; ++i) {
-        const double next = log ? std::floor(begin * std::exp(i * width)) + 0.5 : begin + i * width;
+        const double next =
+            merged ? std::floor(begin * std::exp(i * width)) + 0.5 : begin + i * width;
         if (next > edges.back()) edges.push_back(std::min(next, end));
     }
     return histogram_between(std::move(edges), values, log);

@@ -200,19 +200,12 @@ class PointMarks {
     void for_each_bin(const PointSet& set, const PixelImage& raster, const Place& place,
                       const Visit& visit) const {
         const Area& a = raster.area;
-        const auto columns = static_cast<double>(raster.columns);
-        const auto rows = static_cast<double>(raster.rows);
-        constexpr double slack = 1e-9;  // keeps points on a lower edge in their bin
         for (std::size_t i = 0; i < set.count(); ++i) {
             if (i % patience == 0) run_.tick(i, set.count());
             const Position position = place(set[i]);
-            const double x = (position.x - a.left) / a.width * columns + slack;
-            const double up = (a.bottom() - position.y) / a.height * rows + slack;
-            if (!(x >= 0 && x <= columns + 2 * slack && up >= 0 && up <= rows + 2 * slack))
-                continue;
-            const auto row = std::min(static_cast<std::size_t>(up), raster.rows - 1);
-            visit((raster.rows - 1 - row) * raster.columns +
-                  std::min(static_cast<std::size_t>(x), raster.columns - 1));
+            const auto column = cell_at((position.x - a.left) / a.width, raster.columns);
+            const auto row = cell_at((a.bottom() - position.y) / a.height, raster.rows);
+            if (column && row) visit((raster.rows - 1 - *row) * raster.columns + *column);
         }
     }
 

@@ -116,11 +116,16 @@ void draw_bars(DotMatrix& dots, const Bars& bars, const Axis& x, const Axis& y, 
         const auto columns = static_cast<double>(dots.width());
         const double left = std::max(x.share(bars.edges[i]), 0.0);
         const double right = std::min(x.share(bars.edges[i + 1]), 1.0);
-        if (!(bars.heights[i] > 0) && base == 0) continue;
-        for (double column = 0; left + (column + 0.5) / columns < right; ++column) {
-            const double at = left + (column + 0.5) / columns;
-            dots.draw(at, base, at, top);
-        }
+        if (!(left < right) || (!(bars.heights[i] > 0) && base == 0)) continue;
+        // A bar has the columns whose middle it covers; a thinner one, the column of its own middle.
+        const auto first_from = [&](double share) {
+            return std::ceil(share * columns - 0.5 - 1e-9);
+        };
+        double column = first_from(left);
+        double end = first_from(right);
+        if (column >= end) end = 1 + (column = std::floor((left + right) / 2 * columns));
+        for (; column < end; ++column)
+            dots.draw((column + 0.5) / columns, base, (column + 0.5) / columns, top);
     }
 }
 
@@ -184,8 +189,8 @@ std::vector<std::string> ends_of(const ChartPanel& panel, const DotMatrix& dots,
         const auto last = std::find_if(values.rbegin(), values.rend(),
                                        [](double value) { return std::isfinite(value); });
         if (last == values.rend()) continue;
-        const double down = (1 - std::clamp(y.share(*last), 0.0, 1.0)) * static_cast<double>(rows);
-        std::string& end = ends[std::min(static_cast<std::size_t>(down), rows - 1)];
+        const std::size_t row = *cell_at(std::clamp(y.share(*last), 0.0, 1.0), rows);
+        std::string& end = ends[rows - 1 - row];
         if (end.empty()) end = " ";
         end += in_colour(curve_letter(s), s, coloured);
     }

@@ -318,6 +318,9 @@ TEST(ReportCharts, ErrorsAreDrawnByTheirRootMeanSquare) {
                                  "a.csv", n));
     const ChartPanel panel = chart_of(ms, "f.error").panels.at(0);
     EXPECT_THAT(panel.series.at(0).y, ElementsAre(std::sqrt(12.5), 1));
+    ms = {measurement("integration", Report().add("error", 3e-200), "a.csv", 10),
+          measurement("integration", Report().add("error", 4e200), "a.csv", 20)};
+    EXPECT_THAT(chart_of(ms, "error").panels.at(0).series.at(0).y, ElementsAre(3e-200, 4e200));
 }
 
 TEST(ReportCharts, NoPowerIsAGapInTheAnisotropy) {
@@ -417,6 +420,17 @@ TEST(ReportCharts, HistogramsOfNumbersHaveBinsOfLogarithmsOnALogAxis) {
     EXPECT_EQ(std::ranges::count_if(tiny.bars.at(0).heights, [](double h) { return h > 0; }), 3);
 }
 
+TEST(ReportCharts, WholeNumbersOnALogAxisAreCounted) {
+    std::vector<Measurement> ms;
+    for (const auto& [value, sets] : {std::pair{1, 3}, {2, 3}, {10, 5}, {20, 6}})
+        for (int i = 0; i < sets; ++i) ms.push_back(number(value, 64));
+    const Bars bars = chart_of(ms, "", true).panels.at(0).bars.at(0);
+    ASSERT_EQ(bars.heights.size(), 20U);
+    EXPECT_EQ(bars.heights[0], 3);
+    EXPECT_EQ(bars.heights[9], 5);
+    EXPECT_EQ(bars.heights[19], 6);
+}
+
 TEST(ReportCharts, SaysWhatCanBeDrawnWhereNothingCan) {
     EXPECT_THAT(refusal({number(0.1, 64)}),
                 HasSubstr("a single report of star-discrepancy has only numbers, nothing to draw; "
@@ -465,6 +479,18 @@ TEST(Chart, HistogramsIntegrateToOne) {
     const Bars bars = histogram_of(std::vector{0.0, 0.1, 0.25, 0.5, 0.999, 1.0}, 0, 1, 4);
     EXPECT_THAT(bars.edges, ElementsAre(0, 0.25, 0.5, 0.75, 1));
     EXPECT_THAT(bars.heights, ElementsAre(4 * 2 / 6.0, 4 * 1 / 6.0, 4 * 1 / 6.0, 4 * 2 / 6.0));
+}
+
+// A grid has equally many points in each bin, though 3 * 0.1 > 0.3.
+TEST(Chart, ValuesOnEdgesAreInTheBinAbove) {
+    std::vector<double> grid, powers;
+    for (int i = 0; i < 100; ++i) grid.push_back(i / 100.0);
+    for (const double height : histogram_of(grid, 0, 1, 10).heights) EXPECT_NEAR(height, 1, 1e-12);
+    for (int i = -12; i < 12; ++i) powers.push_back(std::pow(10, i / 2.0));
+    for (const double height : histogram_of(powers, 1e-6, 1e6, 24, true).heights)
+        EXPECT_NEAR(height, 2 / (24 * std::log(10)), 1e-9);
+    EXPECT_THAT(whole_histogram(std::vector{1.0, 2.0, 2.0}, 1, 2, 5, true).heights,
+                ElementsAre(1 / (3 * std::log(3)), 2 / (3 * std::log(2.5 / 1.5))));
 }
 
 // ---------------------------------------------------------------- spectra

@@ -455,6 +455,41 @@ TEST(DotMatrix, LinesHaveNoGaps) {
     EXPECT_EQ(diagonal.row(0), "⠑⢄");
 }
 
+// Cells have their lower edges, whatever rounds.
+TEST(DotMatrix, PointsOnEdgesAreInTheCellAbove) {
+    for (const int n : {4, 5, 8, 10, 20}) {
+        DotMatrix grid(10, 5), moved(10, 5);
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < n; ++j) {
+                grid.set(i / double{n}, j / double{n});
+                moved.set((i + 0.01) / n, (j + 0.01) / n);
+            }
+        EXPECT_EQ(dots_in(grid), static_cast<std::size_t>(n * n));
+        for (std::size_t row = 0; row < 5; ++row) EXPECT_EQ(grid.row(row), moved.row(row));
+    }
+    DotMatrix bar(1, 10);
+    bar.draw(0, 0, 0, 1);
+    EXPECT_EQ(dots_in(bar), 40U);
+    bar.set(1 + 1e-12, -1e-12);  // corners of projected boxes
+    EXPECT_EQ(dots_in(bar), 41U);
+}
+
+// 200 bins in 60 columns of dots.
+TEST(TextPicture, NarrowBarsAreThere) {
+    ChartPanel panel{.x_name = "x", .y_name = "y", .from_zero = true};
+    panel.bars.push_back(histogram_of(std::vector(1, 0.3), 0, 1, 200));
+    for (double& height : panel.bars[0].heights) height = std::max(height, 1.0);
+    const std::string text =
+        chart_as_text({.title = "", .panels = {panel}}, {}, {.columns = 36, .rows = 14});
+    const std::size_t below = text.rfind("│", text.rfind("│") - 1);
+    const std::string row = text.substr(below, text.rfind("│") - below);
+    EXPECT_EQ(row.find("⠀"), row.npos) << text;  // the lowest row has no gap
+    const std::size_t left = text.find("│");
+    std::string top = text.substr(left, text.find("│", left + 1) - left);
+    replace_all(top, "⠀", "");
+    EXPECT_NE(top, "│") << text;  // the high bar
+}
+
 TEST(TextPicture, HasADotForEachPoint) {
     const PointSet points = points_of({{0, 0}, {1, 1}, {0, 1}, {1, 0}, {0.5, 0.5}});
     const std::string text = points_as_text(picture_of({&points}), {.columns = 26, .rows = 14});

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/text.hpp"
+#include "plot/drawing/panel.hpp"
 
 namespace stipple::plot {
 DotMatrix::DotMatrix(std::size_t columns, std::size_t rows)
@@ -17,16 +18,15 @@ DotMatrix::DotMatrix(std::size_t columns, std::size_t rows)
       pens_(columns_ * rows_) {}
 
 void DotMatrix::set(double right, double up) {
-    if (!(right >= 0 && right <= 1 && up >= 0 && up <= 1)) return;
-    const std::size_t x =
-        std::min(static_cast<std::size_t>(right * static_cast<double>(width())), width() - 1);
-    const std::size_t y =
-        std::min(static_cast<std::size_t>((1 - up) * static_cast<double>(height())), height() - 1);
+    const auto x = cell_at(right, width());
+    const auto row = cell_at(up, height());
+    if (!x || !row) return;
+    const std::size_t y = height() - 1 - *row;
     constexpr std::array<std::array<unsigned char, 2>, 4> bits = {
         {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}}};
-    unsigned char& letter = letters_[y / 4 * columns_ + x / 2];
-    letter = static_cast<unsigned char>(letter | bits[y % 4][x % 2]);
-    pens_[y / 4 * columns_ + x / 2] = static_cast<unsigned char>(pen_);
+    unsigned char& letter = letters_[y / 4 * columns_ + *x / 2];
+    letter = static_cast<unsigned char>(letter | bits[y % 4][*x % 2]);
+    pens_[y / 4 * columns_ + *x / 2] = static_cast<unsigned char>(pen_);
 }
 
 void DotMatrix::draw(double right0, double up0, double right1, double up1) {

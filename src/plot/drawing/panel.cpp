@@ -119,6 +119,13 @@ void draw_sides(Drawing& drawing, const Area& area, Colour colour, bool closed) 
 
 }  // namespace
 
+std::optional<std::size_t> cell_at(double share, std::size_t cells) {
+    constexpr double slack = 1e-9;  // positions are rounded
+    const double at = share * static_cast<double>(cells) + slack;
+    if (!(at >= 0 && at <= static_cast<double>(cells) + 2 * slack)) return std::nullopt;
+    return std::min(static_cast<std::size_t>(at), cells - 1);
+}
+
 Ticks Axis::ticks(double length, bool upright) const {
     if (!words.empty()) return ticks_of_words(*this, length, upright);
     const double room = upright ? 34 : 44;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,10 @@ namespace stipple::plot {
 
 inline constexpr double number_size = 12;  ///< font size of numbers on axes
 inline constexpr double name_size = 13;    ///< font size of axis names
+
+/// Cell of a relative position: one of `cells` equal cells, which have their lower edges, and the
+/// last one both. nullopt outside [0, 1].
+std::optional<std::size_t> cell_at(double share, std::size_t cells);
 
 struct Axis {
     double low = 0;

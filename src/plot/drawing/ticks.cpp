@@ -149,7 +149,7 @@ std::string printed(double value, int digits_after_point) {
 }
 
 std::string rounded(double value, int digits) {
-    return with_minus(fmt::format("{:.{}g}", value, digits));
+    return with_minus(fmt::format("{:.{}g}", value + 0.0, digits));  // 0 for -0
 }
 
 std::pair<std::string, std::string> rounded_ends(double low, double high, int digits) {

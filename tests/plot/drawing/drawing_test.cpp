@@ -407,6 +407,7 @@ TEST(Ticks, SayWhyARangeIsNotShown) {
     EXPECT_EQ(rounded_ends(1, 1 + 1e-12),
               (std::pair<std::string, std::string>("1", "1.000000000001")));
     EXPECT_EQ(rounded_ends(-1, 2), (std::pair<std::string, std::string>("−1", "2")));
+    EXPECT_EQ(rounded_ends(-0.0, 2), (std::pair<std::string, std::string>("0", "2")));
 }
 
 // Drawing a line that leaves the frame for 1e300 ends, also if it is dashed.
