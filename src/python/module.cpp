@@ -521,6 +521,9 @@ PYBIND11_MODULE(_stipple, module) {
     module.def("scramble", python::scramble);
     module.def("warp_density", python::warp_density);
     module.def("density", python::density);
+    module.def("takes_table", [](const std::string& spec) {
+        return stipple::find_analyzer(stipple::parse_spec(spec).name).traits.table;
+    });
     module.def("analyze", python::analyze);
     module.def("report_chart", python::report_chart);
     module.def("study_chart", python::study_chart);

@@ -56,6 +56,9 @@ def test_meta_is_kept_by_the_array_alone():
     assert not isinstance(stipple.generate("halton", 10), stipple.Points)
     both = stipple.generate("random", 4, sets=2, return_meta=True)
     assert [meta["seed"] for meta in both.meta] == [1, 2]
+    moved = points.copy()
+    moved /= 10  # is not on the disk's rim any more
+    assert moved.meta is None and np.sort(points, axis=0).meta is None and points.meta is not None
 
 
 # A part of the points has the same domain, but another recipe. Whole sets keep everything, and
@@ -221,6 +224,7 @@ BAD = [
     (0.5, r"shape \(\)"),
     (None, "is None; expected points"),
     (np.ma.array([[0.5, 0.5]], mask=[[True, False]]), "masked"),
+    ([np.ma.array([0.5, 0.5]), np.ma.array([0.5, 0.7], mask=[False, True])], "masked"),
 ]
 
 
@@ -322,6 +326,19 @@ def test_integrals_have_errors():
         stipple.integrate(lambda x: x, "random", 16, 2)
     with pytest.raises(ZeroDivisionError):
         stipple.integrate(lambda x: 1 // 0, "random", 16, 2)
+    with pytest.raises(stipple.Error, match="MaskedArray"):
+        stipple.integrate(lambda x: np.ma.array(x[:, 0], mask=x[:, 0] < 0.5), "random", 16, 2)
+
+
+# Squares of the estimates, or their sums, are beyond float64.
+@pytest.mark.parametrize("power", [-1010, -700, 700, 1022])
+def test_integrals_have_any_size(power):
+    there = stipple.integrate(lambda x: x[:, 0], "random", 16, 2)
+    found = stipple.integrate(lambda x: x[:, 0] * 2.0**power, "random", 16, 2)
+    assert found.estimate == there.estimate * 2.0**power
+    assert found.standard_error == pytest.approx(there.standard_error * 2.0**power, rel=1e-12)
+    with pytest.raises(stipple.Error, match="beyond float64"):
+        stipple.integrate(lambda x: np.full(len(x), 1e308), "random", 16, 2, warp="disk:radius=1e3")
 
 
 def test_integrands_are_functions():

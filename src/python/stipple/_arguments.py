@@ -91,6 +91,12 @@ def real(name: str, value: object, low: float, high: float, expected: str) -> fl
     return number
 
 
+def is_masked(x: object) -> bool:
+    """Whether elements of an array, or of a list of rows, are masked, which NumPy's arrays are not."""
+    parts = x if isinstance(x, (list, tuple)) else [x]
+    return any(isinstance(one, np.ma.MaskedArray) and bool(one.mask.any()) for one in parts)
+
+
 def flag(name: str, value: object) -> bool:
     if not isinstance(value, FLAGS):
         refuse(name, value, "True or False")

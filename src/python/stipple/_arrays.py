@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _frames, _stipple
-from ._arguments import Floats, refuse, shown, text
+from ._arguments import Floats, is_masked, refuse, shown, text
 from ._errors import Error
 
 Given: TypeAlias = tuple[Floats, str, str]
@@ -116,13 +116,24 @@ class Points(np.ndarray[Any, np.dtype[np.float64]]):
     A selection of points (x[:50], x[::2], x[mask], x[[3, 1]]) keeps the domain, the warps, and the
     names and levels of the columns. A selection of columns (x[:, :2]) keeps their names and levels, and the
     domain if it is that of these columns alone: of a cube, a box, parameters that are independent of
-    the others, or a whole factor of a product. Results of arithmetic are plain arrays, whose meta is
-    None.
+    the others, or a whole factor of a product. Results of arithmetic, also in place, are arrays
+    whose meta is None, and so are sorted ones.
     """
 
     meta: Any = None
 
     def __array_finalize__(self, source: object) -> None:
+        self.meta = None
+
+    def __array_wrap__(self, *results: Any) -> Any:
+        found = super().__array_wrap__(*results)
+        if found is self:  # x *= 2
+            self.meta = None
+        return found
+
+    def sort(self, *args: Any, **options: Any) -> None:
+        """Sorts in place; the meta, which is that of other points, becomes None."""
+        super().sort(*args, **options)
         self.meta = None
 
     def __getitem__(self, index: Any) -> Any:
@@ -174,7 +185,7 @@ def as_rows(x: ArrayLike, name: str = "x", most: int = 2, gaps: bool = False) ->
         array = np.asarray(x)
     except Exception as error:
         raise Error(f"{name} is no array of points: {error}", "input") from None
-    if isinstance(x, np.ma.MaskedArray) and x.mask.any():
+    if is_masked(x):
         raise Error(f"{name} has masked elements; leave such points out", "input")
     if array.dtype.kind not in "fiu":
         raise Error(

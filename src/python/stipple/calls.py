@@ -29,6 +29,7 @@ from ._arguments import (
     bounds_text,
     counted,
     flag,
+    is_masked,
     listed,
     path as path_of,
     real,
@@ -338,9 +339,7 @@ def analyze(analyzer: Unit, x: PointsLike, *, domain: str | None = None, paramet
         if domain is not None:
             raise Error("parameters and domain: give one of them")
         domain = _parameters_of(parameters)[0]
-    # The only analyzer of tables, whose other columns are not coordinates.
-    is_table = spec.partition(":")[0] == "sensitivity"
-    one = given_table(x, "x", domain) if is_table else given(x, domain=domain)
+    one = given_table(x, "x", domain) if _stipple.takes_table(spec) else given(x, domain=domain)
     if callable(integrand):
         if spec != "integration":
             raise Error(f"integrand: {spec} takes no function; the analyzer integration does")
@@ -354,7 +353,7 @@ def _values(function: Callable[[Floats], ArrayLike], x: Floats) -> Floats:
     found = function(x)
     try:
         values = np.asarray(found)
-        if values.dtype.kind not in "fiub":
+        if values.dtype.kind not in "fiub" or is_masked(found):
             raise TypeError
     except Exception:
         raise Error(f"the integrand gives {type(found).__name__} for {counted(len(x), 'point')}; "
@@ -370,6 +369,15 @@ def _values(function: Callable[[Floats], ArrayLike], x: Floats) -> Floats:
     return values.astype(np.float64)
 
 
+def _in_unit(values: Floats, find: Callable[[Floats], Any]) -> float:
+    """A mean or a deviation, found in units of a power of two: sums of the largest numbers, and
+    squares of tiny and huge ones, leave float64."""
+    if not np.isfinite(values).all():
+        raise Error("an estimate is beyond float64", "input")
+    unit = 2.0 ** (int(np.frexp(np.abs(values).max())[1]) - 1)
+    return float(find(values / unit) * unit)
+
+
 def _integral_of(function: Callable[[Floats], ArrayLike], one: Given,
                  options: dict[str, Any]) -> Report:
     exact = options.pop("exact", None)
@@ -379,7 +387,7 @@ def _integral_of(function: Callable[[Floats], ArrayLike], one: Given,
     values = _values(function, one[0])
     if not mean:
         values = values / _stipple.density(one)
-    found = {"estimate": float(np.mean(values))}
+    found = {"estimate": _in_unit(values, np.mean)}
     if exact is not None:
         number = real("exact", exact, -np.inf, np.inf, "a number")
         found |= {"exact": number, "error": found["estimate"] - number}
@@ -439,11 +447,12 @@ def integrate(function: Callable[[Floats], ArrayLike], generator: Unit, n: Whole
             raise Error(f"{spec}: its points do not depend on the seed; scramble them")
         before = x
         values = _values(function, x)
-        estimates.append(float(np.mean(values if plain else values / pdf(x, mapping or ""))))
+        estimates.append(_in_unit(values if plain else values / pdf(x, mapping or ""), np.mean))
     rows = [("", "", 0, 0, r, "", value, "") for r, value in enumerate(estimates)]
     centre, low, high = _stipple.means(rows, confidence)[0][6:9]
-    error = float(np.std(estimates, ddof=1) / np.sqrt(replications))
-    return Integral(centre, error, low, high, np.array(estimates))
+    all_estimates = np.array(estimates)
+    error = _in_unit(all_estimates, lambda x: np.std(x, ddof=1) / np.sqrt(replications))
+    return Integral(centre, error, low, high, all_estimates)
 
 
 def read(path: Path, *, format: str = "", d: Whole = 0, single: bool = False, threads: Whole = 0,
