@@ -189,7 +189,7 @@ std::vector<std::string> ends_of(const ChartPanel& panel, const DotMatrix& dots,
         const auto last = std::find_if(values.rbegin(), values.rend(),
                                        [](double value) { return std::isfinite(value); });
         if (last == values.rend()) continue;
-        const std::size_t row = *cell_at(std::clamp(y.share(*last), 0.0, 1.0), rows);
+        const std::size_t row = cell_at(std::clamp(y.share(*last), 0.0, 1.0), rows).value_or(0);
         std::string& end = ends[rows - 1 - row];
         if (end.empty()) end = " ";
         end += in_colour(curve_letter(s), s, coloured);

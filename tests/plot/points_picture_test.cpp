@@ -457,11 +457,11 @@ TEST(DotMatrix, LinesHaveNoGaps) {
 
 // Cells have their lower edges, whatever rounds.
 TEST(DotMatrix, PointsOnEdgesAreInTheCellAbove) {
-    for (const int n : {4, 5, 8, 10, 20}) {
+    for (const double n : {4, 5, 8, 10, 20}) {
         DotMatrix grid(10, 5), moved(10, 5);
-        for (int i = 0; i < n; ++i)
-            for (int j = 0; j < n; ++j) {
-                grid.set(i / double{n}, j / double{n});
+        for (double i = 0; i < n; ++i)
+            for (double j = 0; j < n; ++j) {
+                grid.set(i / n, j / n);
                 moved.set((i + 0.01) / n, (j + 0.01) / n);
             }
         EXPECT_EQ(dots_in(grid), static_cast<std::size_t>(n * n));
