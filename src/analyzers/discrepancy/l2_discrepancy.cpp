@@ -153,8 +153,8 @@ Report in_space(const PointSet& points, l2::Kind which, const l2::AxisWeights& w
                 const RunContext& run) {
     const std::size_t n = points.count();
     const std::size_t d = points.dimension();
-    if (l2::divides(d, which, weights) && l2::divide_wins(n, d, which)) {
-        run.need_memory(l2::divide_memory(n, d, which), "the tables of l2-discrepancy");
+    if (l2::divides(d, which, weights) && l2::divide_wins(n, d, which, weights)) {
+        run.need_memory(l2::divide_memory(n, d, which, weights), "the tables of l2-discrepancy");
         return off_by(l2::divide_square(points, which, weights, run), which, "divide-and-conquer",
                       run);
     }

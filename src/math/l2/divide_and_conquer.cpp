@@ -523,9 +523,9 @@ bool divides(std::size_t dimension, Kind kind, const AxisWeights& weights) {
            (dimension == 3 && is_three_products(kind, weights));
 }
 
-bool divide_wins(std::size_t count, std::size_t dimension, Kind kind) {
+bool divide_wins(std::size_t count, std::size_t dimension, Kind kind, const AxisWeights& weights) {
     // Measured counts. star and modified have half as many factors per pair in pair_square().
-    if (!is_one_product(dimension, kind, {}))
+    if (!is_one_product(dimension, kind, weights))
         return count >= 50'000 && count <= std::size_t{1} << 23;
     if (count >= std::size_t{1} << 27) return false;  // sums could overflow
     const bool simple = kind == Kind::star || kind == Kind::modified;
@@ -533,9 +533,10 @@ bool divide_wins(std::size_t count, std::size_t dimension, Kind kind) {
     return count >= (simple ? 200'000U : 100'000U);
 }
 
-double divide_memory(std::size_t count, std::size_t dimension, Kind kind) {
+double divide_memory(std::size_t count, std::size_t dimension, Kind kind,
+                     const AxisWeights& weights) {
     const std::size_t terms =
-        is_one_product(dimension, kind, {}) ? 0 : dimension * sizeof(ThreeProducts::Terms);
+        is_one_product(dimension, kind, weights) ? 0 : dimension * sizeof(ThreeProducts::Terms);
     return static_cast<double>((terms + dimension * sizeof(Item)) * count);
 }
 

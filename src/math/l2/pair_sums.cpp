@@ -196,19 +196,22 @@ class FactorForm {
     DoubleDouble bottom_ = {};  ///< put() adds a part of a coordinate to it
 };
 
-/// The axes with nonzero weights.
+/// The axes whose weights count.
 struct Axes {
     std::vector<std::size_t> places;
     std::vector<FactorForm> forms;
     std::vector<AxisFactor> terms;
 };
 
+/// Smaller weights change a square by less than its rounding error, but their inverses overflow.
+constexpr double least_weight = 0x1p-1000;
+
 Axes axes_of(std::size_t dimension, Kind kind, const AxisWeights& weights, bool two_sided) {
     const bool alone = is_kernel_alone(kind, weights);
     Axes axes;
     for (std::size_t j = 0; j < dimension; ++j) {
         const double weight = weight_of(weights, j);
-        if (weight == 0) continue;
+        if (weight < least_weight) continue;
         axes.places.push_back(j);
         axes.forms.emplace_back(kind, alone, two_sided, weight);
         axes.terms.emplace_back(kind, alone, weight);
@@ -458,9 +461,9 @@ Square pair_square(const PointSet& points, Kind kind, const AxisWeights& weights
                    const RunContext& run, Vectors widest) {
     const bool two_sided = is_two_sided(points, kind, weights);
     const Axes axes = axes_of(points.dimension(), kind, weights, two_sided);
-    if (axes.places.empty()) {  // all weights are 0
+    if (axes.places.empty()) {  // all weights are 0 or nearly
         run.tick(1, 1);
-        return {0, 0};
+        return {0, 20 * std::accumulate(weights.begin(), weights.end(), 0.0)};
     }
     const Numbers numbers = numbers_of(points, axes, run);
     const Factors factors = factors_of(axes);

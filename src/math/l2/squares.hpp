@@ -44,10 +44,11 @@ double plane_square(const PlaneSums& sums, std::size_t dimension, Kind kind,
 bool divides(std::size_t dimension, Kind kind, const AxisWeights& weights);
 
 /// True if divide_square() is faster than pair_square().
-bool divide_wins(std::size_t count, std::size_t dimension, Kind kind);
+bool divide_wins(std::size_t count, std::size_t dimension, Kind kind, const AxisWeights& weights);
 
 /// Bytes that divide_square() needs.
-double divide_memory(std::size_t count, std::size_t dimension, Kind kind);
+double divide_memory(std::size_t count, std::size_t dimension, Kind kind,
+                     const AxisWeights& weights);
 
 /// Squared discrepancy by divide and conquer. Requires divides(), and not more points than the
 /// largest count for which divide_wins() is true.

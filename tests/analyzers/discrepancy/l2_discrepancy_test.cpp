@@ -736,8 +736,8 @@ TEST(L2Discrepancy, DividesManyPointsInThreeDimensions) {
     }
     for (const Kind kind :
          {Kind::periodic, Kind::wraparound, Kind::mixture, Kind::average, Kind::symmetric}) {
-        EXPECT_TRUE(l2::divide_wins(50'000, 3, kind));
-        EXPECT_FALSE(l2::divide_wins(10'000, 3, kind));
+        EXPECT_TRUE(l2::divide_wins(50'000, 3, kind, {}));
+        EXPECT_FALSE(l2::divide_wins(10'000, 3, kind, {}));
         const auto few = middles(11);
         const auto divided = l2::divide_square(cubed(few), kind, {}, {.threads = 2});
         const Fraction exact = product_square(few, definition(name_of(kind)), 3);
@@ -746,6 +746,21 @@ TEST(L2Discrepancy, DividesManyPointsInThreeDimensions) {
     }
     EXPECT_FALSE(l2::divides(4, Kind::wraparound, {}));
     EXPECT_FALSE(l2::divides(3, Kind::wraparound, {1, 1, 1e5})) << "no room for sums";
+    // With weights these kinds need three products, and have room for fewer points.
+    EXPECT_TRUE(l2::divide_wins(20'000'000, 3, Kind::extreme, {}));
+    EXPECT_FALSE(l2::divide_wins(20'000'000, 3, Kind::extreme, {1, 1, 1}));
+    EXPECT_FALSE(l2::divide_wins(20'000'000, 3, Kind::star, {18, 18, 18}));
+}
+
+TEST(L2Discrepancy, WeightsWhoseInversesOverflowDoNotCount) {
+    const PointSet set = random_set(20, 4, 3);
+    for (const Kind kind : l2::all_kinds) {
+        const auto with = l2::pair_square(set, kind, {1, 1e-310, 0.5, 5e-324}, {});
+        EXPECT_EQ(with.squared, l2::pair_square(set, kind, {1, 0, 0.5, 0}, {}).squared);
+        const auto tiny = l2::pair_square(set, kind, {1e-310, 1e-310, 0, 0}, {});
+        EXPECT_EQ(tiny.squared, 0);
+        EXPECT_GT(tiny.error, 1e-309);
+    }
 }
 
 TEST(L2Discrepancy, DoesNotDependOnTheOrderOfPointsAndAxes) {
