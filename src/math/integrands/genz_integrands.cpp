@@ -51,9 +51,8 @@ constexpr Param<std::int64_t> peak_seed{
 Param<double> difficulty(double fallback) {
     return {.name = "difficulty",
             .fallback = fallback,
-            .low = 0,
+            .low = 1e-100,
             .high = 10'000,
-            .low_open = true,
             .help = "Sum of the steepnesses a_i"};
 }
 
@@ -192,15 +191,18 @@ Integrand discontinuous(Draw g) {
             exact};
 }
 
-IntegrandKind family(std::string name, std::string summary, std::uint64_t number, double sum,
+IntegrandKind family(const std::string& name, std::string summary, std::uint64_t number, double sum,
                      std::size_t max_dimension, Integrand (*make)(Draw)) {
     const Param<double> steep = difficulty(sum);
-    return {.name = "genz-" + std::move(name),
+    const std::string full = "genz-" + name;
+    return {.name = full,
             .summary = std::move(summary),
             .max_dimension = max_dimension,
             .options = Schema(peak_seed, steep),
             .make = [=](std::size_t d, const Values& values) {
-                return make(draw(d, values[peak_seed], number, values[steep]));
+                Integrand made = make(draw(d, values[peak_seed], number, values[steep]));
+                if (number > 0) require_normal(made.exact, full, d);  // a cosine's may be near 0
+                return made;
             }};
 }
 

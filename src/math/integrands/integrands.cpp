@@ -2,6 +2,7 @@
 #include "math/integrands/integrands.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -21,6 +22,13 @@ std::vector<IntegrandKind> collected() {
 const std::vector<IntegrandKind>& integrand_kinds() {
     static const std::vector<IntegrandKind> kinds = collected();
     return kinds;
+}
+
+void require_normal(double exact, std::string_view name, std::size_t dimension) {
+    if (!std::isnormal(exact))
+        fail(ErrorKind::usage,
+             "--integrand: {}: its integral in dimension {} is too {} for float64", name, dimension,
+             exact < 1 ? "small" : "large");
 }
 
 const IntegrandKind& integrand_kind(std::string_view name) {

@@ -48,6 +48,10 @@ const std::vector<IntegrandKind>& integrand_kinds();
 /// Returns the kind with this name. @throws Error(usage) suggesting the nearest name.
 const IntegrandKind& integrand_kind(std::string_view name);
 
+/// Checks the integral of a peak. @throws Error(usage) if float64 cannot hold it: then it cannot hold
+/// most values either, and an estimate of 0 would seem to be exact
+void require_normal(double exact, std::string_view name, std::size_t dimension);
+
 /// The six families of A. Genz.
 std::vector<IntegrandKind> genz_integrands();
 

@@ -50,12 +50,14 @@ Integrand smooth_gaussian(std::size_t dimension, const Values& values) {
     const double factor = -0.5 / (values[width] * values[width]);
     const double reach = 0.5 / (std::numbers::sqrt2 * values[width]);
     const double axis = error_function(reach) / (std::numbers::inv_sqrtpi * 2 * reach);
+    const double exact = whole_power(axis, dimension);
+    require_normal(exact, "smooth-gaussian", dimension);
     return {[factor](auto point) {
                 double sum = 0;
                 for (const double x : point) sum += (x - 0.5) * (x - 0.5);
                 return exponential(factor * sum);
             },
-            whole_power(axis, dimension)};
+            exact};
 }
 
 constexpr Param<double> phase{.name = "phase",

@@ -144,6 +144,24 @@ TEST(Integrands, CornerPeakIsFiniteInAnyDimension) {
     EXPECT_NEAR(integrand("genz-corner-peak:difficulty=1e-9", 50).exact, 1, 1e-7);
 }
 
+TEST(Integrands, BeyondFloat64AreRefused) {
+    // Values and integrals would be 0, and an estimate of 0 would seem to be exact.
+    const auto refusal = [](const char* name, std::size_t d) {
+        return error_of([&] { integrand(name, d); });
+    };
+    EXPECT_EQ(
+        refusal("genz-product-peak:difficulty=1", 100),
+        "usage: --integrand: genz-product-peak: its integral in dimension 100 is too small for "
+        "float64");
+    EXPECT_EQ(
+        refusal("genz-discontinuous:difficulty=10000", 5),
+        "usage: --integrand: genz-discontinuous: its integral in dimension 5 is too large for "
+        "float64");
+    for (const char* name : {"genz-corner-peak:difficulty=10000", "smooth-gaussian:width=1e-3"})
+        EXPECT_NE(refusal(name, 200).find("too small for float64"), std::string::npos) << name;
+    EXPECT_NE(refusal("genz-oscillatory:difficulty=1e-323", 2).find("outside"), std::string::npos);
+}
+
 TEST(Integrands, OwenHasMeanZeroAndVarianceOneInItsOrderAlone) {
     const auto second_moment = [](const Integrand& one) {
         return composite([&](double x) {
