@@ -289,8 +289,8 @@ struct Weibull {
     }
     double density(double x) const {
         const double y = x / scale;
-        return shape / scale * real_power(y, shape - 1) *
-               stipple::exponential(-real_power(y, shape));
+        const double decay = stipple::exponential(-real_power(y, shape));
+        return decay > 0 ? shape / scale * real_power(y, shape - 1) * decay : 0;
     }
     MarginalMoments moments() const {
         if (shape > 10) return narrow_moments();

@@ -102,15 +102,23 @@ double moment_about(const Marginal& law, double about, double unit, int n) {
     return beyond <= 1e-12 * size ? sum : std::numeric_limits<double>::quiet_NaN();
 }
 
-}  // namespace
-
-MarginalMoments moments_by_quadrature(const Marginal& law) {
-    const double middle = law.quantile(0.5);
-    const double unit = law.quantile(0.25, Tail::upper) - law.quantile(0.25);
+MarginalMoments moments_in(const Marginal& law, double middle, double unit) {
     const double mean = middle + unit * moment_about(law, middle, unit, 1);
     const double variance = moment_about(law, mean, unit, 2);
     const double third = moment_about(law, mean, unit, 3);
     return {mean, unit * unit * variance, third / (variance * std::sqrt(variance))};
+}
+
+}  // namespace
+
+MarginalMoments moments_by_quadrature(const Marginal& law) {
+    const double middle = law.quantile(0.5);
+    const double half = law.quantile(0.25, Tail::upper) - law.quantile(0.25);
+    const MarginalMoments usual = moments_in(law, middle, half);
+    const auto [low, high] = law.support();
+    const double reach = std::max(middle - low, high - middle);
+    const bool overflown = !std::isfinite(usual.skewness) && std::isfinite(reach);
+    return overflown ? moments_in(law, middle, reach) : usual;
 }
 
 MarginalPtr truncated(MarginalPtr law, double low, double high, std::string_view where) {

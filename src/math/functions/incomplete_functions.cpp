@@ -154,7 +154,10 @@ double gamma_above(double a, double x) {
 }
 double gamma_density(double a, double x) {
     if (x <= 0) return density_at_0(a, 1);
-    if (a > 200) return a / x * exp_of(gamma_log_power(a, x));
+    if (a > 200) {
+        const double power = exp_of(gamma_log_power(a, x));
+        return power > 0 ? a / x * power : 0;  // a / x may be infinite, and x too
+    }
     return boost::math::gamma_p_derivative(Number(a), Number(x), no_errors).value;
 }
 
@@ -298,7 +301,10 @@ double beta_above(double a, double b, double x) {
 double beta_density(double a, double b, double x) {
     if (x <= 0) return density_at_0(a, b);
     const Parts at = parts_of(x);
-    return exp_of(BetaFunction(a, b).log_power(at)) / x / at.rest.high;
+    const DoubleDouble log = BetaFunction(a, b).log_power(at);
+    if (log.high > -700) return exp_of(log) / x / at.rest.high;
+    const auto [high, low] = log_of(at.x);  // divides by x before the power underflows
+    return exp_of(log + DoubleDouble{-high, -low}) / at.rest.high;
 }
 
 namespace {

@@ -335,6 +335,20 @@ TEST(Marginal, TriangularKeepsItsDigitsBesideAModeAtAnEnd) {
 }
 
 // Cauchy's distribution has P(T > t) = 1 / (pi t) for large t, and the density 1 / (pi t^2).
+TEST(Marginal, DensitiesFarOutAre0) {
+    const auto density = [](const char* family, const NamedNumbers& numbers, double x) {
+        return make_marginal(family, numbers)->density(x);
+    };
+    EXPECT_EQ(density("weibull", {{"shape", 1000}}, 3), 0);
+    EXPECT_EQ(density("weibull", {{"shape", 1000}}, 1e300), 0);
+    EXPECT_EQ(density("gamma", {{"shape", 500}, {"scale", 1e-100}}, 1e300), 0);
+    EXPECT_EQ(density("gamma", {{"shape", 500}, {"scale", 1}}, 1e-320), 0);
+    // x^1.130486784105228 / B(2.130486784105228, 1): the power itself is 1e-491.
+    EXPECT_NEAR(density("beta", {{"a", 2.130486784105228}, {"b", 1}}, 2.6006440544197216e-231) /
+                    4.521423686306389e-261,
+                1, 1e-13);
+}
+
 TEST(Marginal, StudentIsRightWhereSquaresOverflow) {
     const MarginalPtr cauchy = make_marginal("student-t", {{"degrees", 1}});
     for (const double t : {1e100, 1e160, 1e250})
