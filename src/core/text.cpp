@@ -24,23 +24,21 @@ std::optional<T> parse_whole(std::string_view text, int base = 10) {
     return value;
 }
 
-/// Parses a number and multiplies it; nullopt if the result is not whole or exceeds 63 bits.
-std::optional<std::int64_t> scaled(std::string_view text, double factor) {
+/// Parses a number and multiplies it; nullopt if the result is not whole, or not in [0, 2^64).
+std::optional<std::uint64_t> scaled(std::string_view text, double factor) {
     const auto value = parse_number(text);
-    if (!value) return std::nullopt;
-    const double product = *value * factor;
-    if (product != std::floor(product) || std::abs(product) >= 0x1p63) return std::nullopt;
-    return static_cast<std::int64_t>(product);
+    const double product = value.value_or(-1) * factor;
+    if (product != std::floor(product) || product < 0 || product >= 0x1p64) return std::nullopt;
+    return static_cast<std::uint64_t>(product);
 }
 
-std::optional<std::int64_t> power(std::string_view base_text, std::string_view exponent_text) {
-    const auto base = parse_whole<std::int64_t>(base_text);
-    const auto exponent = parse_whole<int>(exponent_text);
-    const bool negative = base_text.starts_with('-');  // -2^2: a formula, whose value is -4
-    if (negative || !base || !exponent || *exponent < 0) return std::nullopt;
-    const int factors = *base > 1 ? *exponent : std::min(*exponent, 1);
-    std::int64_t value = 1;
-    for (int i = 0; i < factors; ++i)
+std::optional<std::uint64_t> power(std::string_view base_text, std::string_view exponent_text) {
+    const auto base = parse_whole<std::uint64_t>(base_text);
+    const auto exponent = parse_whole<std::uint32_t>(exponent_text);
+    if (!base || !exponent) return std::nullopt;
+    const std::uint32_t factors = *base > 1 ? *exponent : std::min(*exponent, 1U);
+    std::uint64_t value = 1;
+    for (std::uint32_t i = 0; i < factors; ++i)
         if (__builtin_mul_overflow(value, *base, &value)) return std::nullopt;
     return value;
 }
@@ -50,6 +48,15 @@ double suffix_factor(char suffix) {
     constexpr std::string_view letters = "KMGT";
     const auto place = letters.find(suffix == 'k' ? 'K' : suffix);
     return place == letters.npos ? 0 : std::ldexp(1.0, 10 * static_cast<int>(place + 1));
+}
+
+/// A whole number in one of the notations: 1000, 1e6, 2^20 or 64k.
+std::optional<std::uint64_t> magnitude(std::string_view text) {
+    if (const auto caret = text.find('^'); caret != std::string_view::npos)
+        return power(text.substr(0, caret), text.substr(caret + 1));
+    if (const auto plain = parse_whole<std::uint64_t>(text)) return plain;
+    const double factor = text.empty() ? 0 : suffix_factor(text.back());
+    return factor != 0 ? scaled(text.substr(0, text.size() - 1), factor) : scaled(text, 1);
 }
 
 /// Smallest number of edits that turn a into b; an edit inserts, deletes or replaces a letter, or
@@ -74,22 +81,18 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::optional<std::int64_t> parse_integer(std::string_view text) {
-    if (text.empty()) return std::nullopt;
-    if (const auto caret = text.find('^'); caret != std::string_view::npos)
-        return power(text.substr(0, caret), text.substr(caret + 1));
-    if (const auto plain = parse_whole<std::int64_t>(text)) return plain;
-    if (const double factor = suffix_factor(text.back()); factor != 0)
-        return scaled(text.substr(0, text.size() - 1), factor);
-    return scaled(text, 1);
+    const bool minus = text.starts_with('-');
+    if (text.starts_with("-+") || (minus && text.find('^') != text.npos)) return std::nullopt;
+    const auto size = magnitude(text.substr(minus ? 1 : 0));
+    constexpr std::uint64_t most = std::uint64_t{1} << 63;
+    if (!size || *size > (minus ? most : most - 1)) return std::nullopt;
+    return static_cast<std::int64_t>(minus ? 0 - *size : *size);
 }
 
 std::optional<std::uint64_t> parse_unsigned(std::string_view text) {
     if (text.starts_with("0x") || text.starts_with("0X"))
         return parse_whole<std::uint64_t>(text.substr(2), 16);
-    if (const auto plain = parse_whole<std::uint64_t>(text)) return plain;
-    const auto value = parse_integer(text);
-    if (!value || *value < 0) return std::nullopt;
-    return static_cast<std::uint64_t>(*value);
+    return magnitude(text);
 }
 
 std::optional<double> parse_number(std::string_view text) {

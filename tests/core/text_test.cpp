@@ -27,15 +27,19 @@ TEST(Text, WholeNumbersInManyWays) {
 }
 
 TEST(Text, RefusesWhatIsNoWholeNumberOrDoesNotFit) {
-    for (const char* text :
-         {"", "x", "1.5", "1e", "2^", "^2", "2^-1", "2^64", "1e30", "k", "0.3k",
-          "9223372036854775808", "1 ", " 1", "nan", "inf", "0x10", "-2^2", "+-2"})
+    for (const char* text : {"",     "x",    "1.5",  "1e",  "2^",   "^2",
+                             "2^-1", "2^64", "1e30", "k",   "0.3k", "9223372036854775808",
+                             "1 ",   " 1",   "nan",  "inf", "0x10", "-2^2",
+                             "+-2",  "-+2",  "--2",  "2^63"})
         EXPECT_FALSE(parse_integer(text)) << text;
 }
 
 TEST(Text, SeedsUseAll64Bits) {
     EXPECT_EQ(parse_unsigned("18446744073709551615"), ~std::uint64_t{0});
     EXPECT_EQ(parse_unsigned("0xff"), 255U);
+    EXPECT_EQ(parse_unsigned("2^63"), std::uint64_t{1} << 63);
+    EXPECT_EQ(parse_unsigned("1e19"), 10'000'000'000'000'000'000U);
+    EXPECT_EQ(parse_integer("-9223372036854775808"), std::numeric_limits<std::int64_t>::min());
     EXPECT_FALSE(parse_unsigned("-1"));
     EXPECT_FALSE(parse_unsigned("18446744073709551616"));
 }
