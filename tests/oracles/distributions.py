@@ -429,12 +429,12 @@ CONTINUOUS = (
     + [Triangular(low=a, mode=c, high=b) for a, c, b in
        [(0.0, 0.0, 1.0), (0.0, 1.0, 1.0), (0.0, 1e-9, 1.0), (-1.0, 0.0, 0.0), (0.0, 0.5, 1.0), (-1e150, 3.0, 1e150),
         (0.0, 1 - 1e-9, 1.0), (10.0, 10.0, 11.0)]]
-    + [Normal(mean=m, deviation=s) for m, s in [(0.0, 1.0), (-5.0, 1e-150), (0.0, 1e150), (1e5, 2.0)]]
+    + [Normal(mean=m, deviation=s) for m, s in [(0.0, 1.0), (0.0, 1e-150), (-5.0, 1e-10), (0.0, 1e150), (1e5, 2.0)]]
     + [Lognormal(mu=m, sigma=s) for m, s in [(0.0, 1.0), (3.0, 1e-9), (-600.0, 1.0), (0.0, 17.0), (2.0, 0.001)]]
     + [Exponential(rate=r) for r in [1e-150, 2.0, 1e150]]
     + [Weibull(shape=k, scale=s) for k, s in [(0.05, 1.0), (0.05, 1e100), (0.5, 2.0), (1.0, 1e-100), (3.6, 1.0),
                                               (9.0, 1.0), (11.0, 1.0), (1000.0, 3.0)]]
-    + [Gumbel(location=m, scale=s) for m, s in [(0.0, 1.0), (1e100, 1e100), (-7.0, 1e-100), (1.0, 1e5)]]
+    + [Gumbel(location=m, scale=s) for m, s in [(0.0, 1.0), (1e100, 1e100), (-7.0, 1e-10), (1.0, 1e5)]]
     + [Gamma(shape=k, scale=s) for k in ENDS for s in [1.0, 1e-100, 1e100]]
     + [Beta(a=a, b=b) for a in ENDS for b in ENDS]
     + [Beta(a=a, b=b, low=-3.0, high=5.0) for a, b in [(515.0, 515.0), (0.05, 1e6), (2.0, 3.0)]]

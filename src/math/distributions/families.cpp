@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "math/distributions/families.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -18,6 +20,17 @@ void require_below(const ParameterValues& p, std::string_view low, std::string_v
     if (!(p[low] < p[high]))
         fail(ErrorKind::usage, "{}{}: {} is not below {}{}, {}", p.where, low, p[low], p.where,
              high, p[high]);
+    const double width = p[high] - p[low];
+    if (!(width >= 1e-290 && is_resolved(width, std::max(std::abs(p[low]), std::abs(p[high])))))
+        fail(ErrorKind::usage,
+             "{}{}: the range from {} to {} is so narrow that it is lost in rounding", p.where, low,
+             p[low], p[high]);
+}
+
+/// Scale of a distribution, checked against its location.
+double resolved(const ParameterValues& p, std::string_view scale, std::string_view location) {
+    require_resolved(fmt::format("{}{}", p.where, location), p[location], scale, p[scale]);
+    return p[scale];
 }
 
 MarginalPtr uniform_of(const ParameterValues& p) {
@@ -108,7 +121,7 @@ std::vector<MarginalFamily> all_families() {
          [](const auto& p) { return gamma_law(p["shape"], p["scale"]); }},
         {"gumbel",
          {location("Position of the highest density"), scale("Scale, above 0")},
-         [](const auto& p) { return gumbel_law(p["location"], p["scale"]); }},
+         [](const auto& p) { return gumbel_law(p["location"], resolved(p, "scale", "location")); }},
         {"integers",
          {{"low", "The smallest number", 1, -most_whole, most_whole, true},
           {"high", "The largest number", 6, -most_whole, most_whole, true}},
@@ -125,7 +138,7 @@ std::vector<MarginalFamily> all_families() {
          lognormal_of},
         {"normal",
          {{"mean", "Mean", 0}, {"deviation", "Standard deviation, above 0", 1, 1e-150, 1e150}},
-         [](const auto& p) { return normal_law(p["mean"], p["deviation"]); }},
+         [](const auto& p) { return normal_law(p["mean"], resolved(p, "deviation", "mean")); }},
         {"poisson",
          {{"mean", "Mean, above 0, up to 1e8", 4, 1e-12, 1e8}},
          [](const auto& p) { return poisson_law(p["mean"]); }},
@@ -133,7 +146,9 @@ std::vector<MarginalFamily> all_families() {
          {{"degrees", "Degrees of freedom, in [0.5, 1e6]", 5, 0.5, 1e6},
           location("Middle"),
           scale("Scale, above 0")},
-         [](const auto& p) { return student_t_law(p["degrees"], p["location"], p["scale"]); }},
+         [](const auto& p) {
+             return student_t_law(p["degrees"], p["location"], resolved(p, "scale", "location"));
+         }},
         {"triangular",
          {low, {"mode", "Position of the highest density, from low to high", 0.5}, high},
          triangular_of},
@@ -183,6 +198,12 @@ const MarginalFamily& marginal_family(std::string_view name) {
     }
     fail_with_hint(ErrorKind::usage, suggest(name, known), "there is no distribution {}",
                    shown(name));
+}
+
+void require_resolved(std::string_view where, double place, std::string_view what, double scale) {
+    if (!is_resolved(scale, place))
+        fail(ErrorKind::usage, "{}: {} is so far from 0 that a {} of {} is lost in rounding", where,
+             place, what, scale);
 }
 
 MarginalPtr make_marginal(std::string_view name, const NamedNumbers& given,

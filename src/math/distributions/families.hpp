@@ -7,6 +7,7 @@
 // and distributions of measured numbers.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -27,6 +28,13 @@ struct MarginalParameter {
     double high = 1e150;
     bool whole = false;  ///< true if only integers are allowed
 };
+
+/// True if at least 64 doubles near `place` are within one `scale`: points of a narrower distribution
+/// would be rounded to few numbers.
+inline bool is_resolved(double scale, double place) { return scale > 0x1p-46 * std::abs(place); }
+
+/// @throws Error(usage) that begins with `where` and names the scale by `what`, unless is_resolved()
+void require_resolved(std::string_view where, double place, std::string_view what, double scale);
 
 using NamedNumbers = std::vector<std::pair<std::string, double>>;
 

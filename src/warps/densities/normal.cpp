@@ -31,6 +31,7 @@
 #include "core/error.hpp"
 #include "core/machine/wide.hpp"
 #include "math/densities/quadrature.hpp"
+#include "math/distributions/families.hpp"
 #include "math/functions/cholesky.hpp"
 #include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"
@@ -259,6 +260,8 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     Shape shape{.mean = one_for_each(mean, want.options[mean], d),
                 .factor = correlated ? factor_of(matrix, d) : deviations_of(want.options, d)};
     for (double& m : shape.mean) m += 0.0;  // + 0.0 avoids -0 in the points
+    for (std::size_t k = 0; k < d; ++k)
+        require_resolved("--mean", shape.mean[k], "deviation", shape.reach(k));
     return domain_mapping<NormalDomain>(std::move(shape), want.spec());
 }
 

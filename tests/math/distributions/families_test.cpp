@@ -69,4 +69,20 @@ TEST(MarginalFamilies, SayWhatIsWrong) {
               "large; expected sigma of at least 1e-9 and |mu| + 38 sigma of at most 650");
 }
 
+TEST(MarginalFamilies, RefuseScalesThatVanishBesideTheirPlace) {
+    // All points of such a distribution would be the same number, or a few.
+    EXPECT_EQ(refusal("gumbel", {{"location", 1e100}}),
+              "usage: x2.location: 1e+100 is so far from 0 that a scale of 1 is lost in rounding");
+    EXPECT_EQ(refusal("normal", {{"mean", -1e20}, {"deviation", 10}}),
+              "usage: x2.mean: -1e+20 is so far from 0 that a deviation of 10 is lost in rounding");
+    EXPECT_FALSE(refusal("student-t", {{"location", 1e15}}).empty());
+    EXPECT_TRUE(refusal("student-t", {{"location", 1e13}}).empty());
+    EXPECT_EQ(refusal("uniform", {{"low", 1}, {"high", 1 + 1e-14}}),
+              "usage: x2.low: the range from 1 to 1.00000000000001 is so narrow that it is lost in "
+              "rounding");
+    for (const char* family : {"beta", "triangular", "uniform"})
+        EXPECT_FALSE(refusal(family, {{"low", -1e-320}, {"high", 1e-320}}).empty()) << family;
+    EXPECT_FALSE(refusal("log-uniform", {{"low", 1}, {"high", std::nextafter(1, 2)}}).empty());
+}
+
 }  // namespace stipple::testing::families_test

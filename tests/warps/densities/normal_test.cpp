@@ -158,6 +158,8 @@ TEST(Normal, RefusesWhatIsNoCovariance) {
         "usage: --deviation: 2 numbers for 3 coordinates; expected one for all, or one for each");
     EXPECT_EQ(error_of([] { mapping("normal:covariance=[1,0,0,1],deviation=2"); }),
               "usage: --deviation: cannot be combined with --covariance; give one of them");
+    EXPECT_EQ(error_of([] { mapping("normal:mean=[0,1e100],deviation=[1,2]"); }),
+              "usage: --mean: 1e+100 is so far from 0 that a deviation of 2 is lost in rounding");
     EXPECT_EQ(error_of([] {
                   inverse_of(*mapping("normal"), {NAN, 0});
               }),
