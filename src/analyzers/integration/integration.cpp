@@ -550,6 +550,9 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     if (domain.dimension() != points.dimension())
         fail(ErrorKind::input, "points of the domain {} have dimension {}; these have {}",
              domain.title(), domain.dimension(), points.dimension());
+    if (!options[as_mean] && domain.measure() < std::numeric_limits<double>::min())
+        fail(ErrorKind::input, "the measure of {} is too small for float64; use other units",
+             domain.title());
     const Support support = domain.support();
     const RegionView view(domain, support);
     const std::vector<Task> tasks = tasks_of(domain, view, support, options);

@@ -378,6 +378,12 @@ TEST(Integration, RefusesWhatItCannotIntegrateInOneLine) {
             analyze("integration", decay, {{"expression", "x"}, {"compare", "true"}});
         }),
         "input: --compare: there are no uniform points on normal, because its measure is infinite");
+    PointSet tiny = points_of({{1e-201, 2e-201}});
+    tiny.domain = parse_domain("box:bounds=[0..1e-200,0..1e-200]", 2);
+    EXPECT_EQ(
+        refusal(tiny, "measure"),
+        "input: the measure of box:bounds=[0..1e-200,0..1e-200] is too small for float64; use "
+        "other units");
     EXPECT_EQ(refusal(points_of({{0.5}}), "owen", {{"compare", "true"}}),
               "input: --compare: needs at least 2 points, not 1");
 }
