@@ -47,6 +47,8 @@ const char* scale_of(const Domain& domain) {
 
 double Centred::variance() const { return dot(z, z) / static_cast<double>(z.size()); }
 
+double held(double variance) { return std::isnormal(variance) ? variance : none; }
+
 bool is_constant(std::span<const double> y) {
     if (y.empty()) return true;
     const auto [low, high] = std::ranges::minmax(y);

@@ -18,10 +18,10 @@
 //         Comput. Phys. Commun. 182 (2011) 978-988, doi:10.1016/j.cpc.2010.12.039.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/error.hpp"
 #include "experiments/sensitivity/methods.hpp"
+#include "math/functions/powers.hpp"
 
 namespace stipple::analyzers::sensitivity {
 namespace {
@@ -69,17 +69,19 @@ Layout find_moves(const PointSet& design, bool star) {
     return {.group = group, .star = star};
 }
 
-/// Terms EE - c, |EE|, (EE - c)^2 and 1 for each input, one row per trajectory; all 0 if the input
-/// did not move. `centre` has the mean effect c of each input.
+/// Terms EE - c, |EE|, ((EE - c) / unit)^2 and 1 for each input, one row per trajectory; all 0 if
+/// the input did not move. `centre` has the mean effect c of each input, `unit` the size of EE - c.
 struct EffectTable {
     TermTable terms;
     std::vector<double> centre;
+    std::vector<double> unit;
 };
 
 EffectTable effect_table(const Layout& layout, const PointSet& design, const PointSet& u,
                          std::span<const double> y, std::span<const std::size_t> trajectories) {
     const std::size_t k = design.dimension();
     EffectTable table{{std::vector<double>(trajectories.size() * 4 * k), 4 * k},
+                      std::vector<double>(k),
                       std::vector<double>(k)};
     const auto terms_of = [&](std::size_t t) { return &table.terms.terms[t * 4 * k]; };
     std::vector<double> counts(k);
@@ -102,17 +104,24 @@ EffectTable effect_table(const Layout& layout, const PointSet& design, const Poi
             if (terms[3 * k + i] == 0) continue;
             terms[k + i] = std::abs(terms[i]);
             terms[i] -= table.centre[i];
-            terms[2 * k + i] = terms[i] * terms[i];
+            table.unit[i] = std::max(table.unit[i], std::abs(terms[i]));
+        }
+    for (double& unit : table.unit) unit = unit_for(unit);
+    for (std::size_t t = 0; t < trajectories.size(); ++t)
+        for (std::size_t i = 0; i < k; ++i) {
+            const double part = terms_of(t)[i] / table.unit[i];
+            terms_of(t)[2 * k + i] = part * part;
         }
     return table;
 }
 
-/// A power of two near the largest magnitude of the outputs that are not NaN. Never subnormal.
-double size_of(std::span<const double> y) {
-    double largest = std::numeric_limits<double>::min();
-    for (const double value : y)
-        if (std::abs(value) > largest) largest = std::abs(value);
-    return std::scalbn(1.0, std::ilogb(largest));
+/// A power of two near the largest magnitude of the outputs in the given groups.
+double size_of(std::span<const double> y, std::size_t group, std::span<const std::size_t> groups) {
+    double largest = 0;
+    for (const std::size_t g : groups)
+        for (const double value : y.subspan(g * group, group))
+            largest = std::max(largest, std::abs(value));
+    return unit_for(largest);
 }
 
 }  // namespace
@@ -133,7 +142,7 @@ Effects elementary_effects(const Layout& layout, const Inputs& inputs, const Res
     const auto trajectories = complete_groups(response, layout.group, "trajectories");
     const auto r = static_cast<double>(trajectories.size());
     const UnitInputs unit = unit_inputs(inputs);
-    const double size = size_of(response.y);
+    const double size = size_of(response.y, layout.group, trajectories);
     std::vector<double> y = response.y;
     for (double& value : y) value /= size;
     const EffectTable table = effect_table(layout, inputs.values, unit.u, y, trajectories);
@@ -145,21 +154,23 @@ Effects elementary_effects(const Layout& layout, const Inputs& inputs, const Res
                 const double moves = means[3 * k + i];
                 const double count = std::round(r * moves);
                 const double off = means[i] / moves;
-                const double square = means[2 * k + i] / moves - off * off;
+                const double apart = off / table.unit[i];
+                const double square = means[2 * k + i] / moves - apart * apart;
                 values[i] = table.centre[i] + off;
                 values[k + i] = means[k + i] / moves;
-                values[2 * k + i] = std::sqrt(std::max(square, 0.0) * count / (count - 1));
+                values[2 * k + i] =
+                    table.unit[i] * std::sqrt(std::max(square, 0.0) * count / (count - 1));
             }
         },
         caution, setting, run);
     for (Index& index : found) index = {index.value * size, index.low * size, index.high * size};
-    Effects effects{
-        .used = trajectories.size() * layout.group,
-        .samples = trajectories.size(),
-        .kinds = {{"mu", part_of(found, 0, k)},
-                  {"mu_star", part_of(found, k, k)},
-                  {"sigma", part_of(found, 2 * k, k)}},
-        .no_intervals = too_few_for_intervals(trajectories.size(), least_rows, "trajectories")};
+    for (std::size_t v = k; v < 3 * k; ++v) found[v].low = std::max(found[v].low, 0.0);
+    Effects effects{.used = trajectories.size() * layout.group,
+                    .samples = trajectories.size(),
+                    .kinds = {{"mu", part_of(found, 0, k)},
+                              {"mu_star", part_of(found, k, k)},
+                              {"sigma", part_of(found, 2 * k, k)}},
+                    .no_intervals = no_bootstrap(trajectories.size(), "trajectories", setting)};
     effects.missing.assign(
         k, "it changes in too few trajectories, or the index is too large for float64");
     effects.details.add("scale", unit.scale);

@@ -11,8 +11,9 @@
 //
 // Shape   n = N k rows, curve after curve, N > 4 M^2.
 // Cost    O(n N / (4 M)).
-// Beware  errors come from aliasing and from overlapping harmonics, and no interval shows them. ST
-//         is too small if harmonics above the M-th matter, and too large in many dimensions.
+// Beware  errors come from aliasing and from overlapping harmonics, and no interval shows them. If
+//         harmonics above the M-th matter, S is too small, by an eighth for an input with two levels
+//         of 1/4 and 3/4, and ST is too small or too large; so it is in many dimensions.
 // Source  A. Saltelli, S. Tarantola, K. P.-S. Chan, Technometrics 41 (1999) 39-56,
 //         doi:10.1080/00401706.1999.10485594.
 #include "core/error.hpp"
@@ -32,7 +33,7 @@ class Spectrum {
             turns_[s] = cos_sin_turns(static_cast<double>(s) / static_cast<double>(n));
     }
 
-    /// S and ST of outputs with mean 0; both 0 if the outputs are constant.
+    /// S and ST of outputs with mean 0, which are not constant.
     [[nodiscard]] std::pair<double, double> shares(std::span<const double> y,
                                                    const RunContext& run) const {
         double all = 0;
@@ -44,7 +45,6 @@ class Spectrum {
         all /= static_cast<double>(n_);
         if (n_ % 2 == 0)
             all -= nyquist / static_cast<double>(n_) * nyquist / static_cast<double>(n_);
-        if (!(all > 0)) return {0, 0};
         std::vector<double> low(frequency_ / 2);
         for_each_block(run, low.size(), 16, [&](const Block& block) {
             for (std::uint64_t f = block.first; f < block.last; ++f) low[f] = power(y, f + 1);
@@ -153,7 +153,7 @@ Effects fourier_amplitudes(const Layout& layout, const Inputs& inputs, const Res
     Effects effects{.used = response.y.size(),
                     .samples = n,
                     .mean = f.mean,
-                    .variance = f.variance() * f.unit * f.unit,
+                    .variance = held(f.variance() * f.unit * f.unit),
                     .kinds = {{"first", std::vector<Index>(k)}, {"total", std::vector<Index>(k)}}};
     for (std::size_t i = 0; i < k; ++i) {
         const auto whole = static_cast<double>(k);
@@ -164,9 +164,11 @@ Effects fourier_amplitudes(const Layout& layout, const Inputs& inputs, const Res
         double mean = 0;
         for (const double value : y) mean += value / static_cast<double>(n);
         for (double& value : y) value -= mean;
-        const auto [first, total] = spectrum.shares(y, part);
+        const bool constant = is_constant(std::span(response.y).subspan(i * n, n));
+        const auto [first, total] = constant ? std::pair(none, none) : spectrum.shares(y, part);
         effects.kinds[0].of[i].value = first;
         effects.kinds[1].of[i].value = total;
+        effects.missing.push_back(constant ? "the output is constant on the input's curve" : "");
     }
     return effects;
 }

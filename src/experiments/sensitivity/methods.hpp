@@ -166,7 +166,6 @@ struct TermTable {
 /// Computes statistics from the means of the terms.
 using Statistics = std::function<void(std::span<const double> means, std::span<double> values)>;
 
-inline constexpr std::size_t least_rows = 10;  ///< smallest number of rows for intervals
 /// Returns the first `count` statistics, computed from all rows, with their bootstrap intervals.
 std::vector<Index> bootstrapped(const TermTable& table, std::size_t count,
                                 const Statistics& statistics, double caution,
@@ -208,6 +207,9 @@ struct Centred {
     [[nodiscard]] double variance() const;
 };
 
+/// A variance, or NaN if float64 does not hold it: it is infinite, or has too few digits.
+double held(double variance);
+
 /// Whether numbers differ at most by rounding, so that there is no variance to explain.
 bool is_constant(std::span<const double> y);
 Centred centred(std::span<const double> y);
@@ -224,6 +226,10 @@ std::vector<std::size_t> complete_groups(const Response& response, std::size_t g
 /// Smallest number of runs for intervals of the methods for any design.
 inline constexpr std::size_t least_for_intervals = 20;
 std::string too_few_for_intervals(std::size_t count, std::size_t least, const char* of_what);
+
+/// Reason why bootstrapped() gives no intervals for `rows` rows, such as "base rows"; empty if it
+/// gives some.
+std::string no_bootstrap(std::size_t rows, const char* of_what, const Setting& setting);
 
 /// Student's quantile for a two-sided interval of this level.
 double interval_quantile(double level, std::size_t freedom);

@@ -126,6 +126,26 @@ void drop_unlike(Effects& effects, std::span<const double> f, std::size_t k, dou
     }
 }
 
+/// Reason for no intervals if one base row has most of the variance: resamples cannot show how much
+/// such a row varies. Empty if none has.
+std::string rare_row(const TermTable& table, std::span<const std::size_t> groups,
+                     std::size_t group) {
+    constexpr double most = 0.8;
+    double whole = 0;
+    std::size_t largest = 0;
+    const auto square = [&](std::size_t row) { return table.terms[row * table.width + 1]; };
+    for (std::size_t row = 0; row < table.rows(); ++row) {
+        whole += square(row);
+        if (square(row) > square(largest)) largest = row;
+    }
+    if (!(square(largest) > most * whole)) return {};
+    const std::size_t first = groups[largest] * group;
+    return fmt::format(
+        "{:.3g} % of the variance is in the points {} to {}; resamples do not show how much such "
+        "points vary",
+        100 * square(largest) / whole, first, first + group - 1);
+}
+
 /// Outputs of the given groups, one after another.
 std::vector<double> joined(std::span<const double> y, std::size_t group,
                            std::span<const std::size_t> groups) {
@@ -164,27 +184,33 @@ Effects pick_freeze(const Layout& layout, const Inputs& inputs, const Response& 
     const std::size_t k = inputs.size();
     const std::size_t group = layout.group;
     const auto complete = complete_groups(response, group, "base rows");
-    const Centred f = centred(joined(response.y, group, complete));
-    if (is_constant(f.z))
+    const auto y = joined(response.y, group, complete);
+    if (is_constant(y))
         fail(ErrorKind::input, "the output {} is constant in the {} base rows without failed runs",
              response.name, complete.size());
+    const Centred f = centred(y);
 
     const std::size_t pairs = group == k + 2 ? 0 : k * (k - 1) / 2;
     TermTable table{.terms = {}, .width = 2 + 2 * k + pairs};
     run.need_memory(8.0 * static_cast<double>(complete.size() * table.width), "the bootstrap");
     for (std::size_t at = 0; at < f.z.size(); at += group)
         append_terms(std::span(f.z).subspan(at, group), k, table.terms);
+    Setting how = setting;
+    std::string no_intervals = no_bootstrap(complete.size(), "base rows", setting);
+    if (no_intervals.empty()) no_intervals = rare_row(table, complete, group);
+    if (!no_intervals.empty()) how.bootstrap = 0;
     constexpr double caution = 50;
-    const auto found = bootstrapped(
+    auto found = bootstrapped(
         table, table.width, [k](auto means, auto values) { indices_of(means, k, values); }, caution,
-        setting, run);
-    Effects effects{
-        .used = f.z.size(),
-        .samples = complete.size(),
-        .mean = f.mean + f.unit * found[0].value,
-        .variance = f.unit * f.unit * found[1].value,
-        .kinds = {{"first", part_of(found, 2, k)}, {"total", part_of(found, 2 + k, k)}},
-        .no_intervals = too_few_for_intervals(complete.size(), least_rows, "base rows")};
+        how, run);
+    for (std::size_t i = 0; i < k; ++i)  // a total index is not negative
+        found[2 + k + i].low = std::max(found[2 + k + i].low, 0.0);
+    Effects effects{.used = f.z.size(),
+                    .samples = complete.size(),
+                    .mean = f.mean + f.unit * found[0].value,
+                    .variance = held(f.unit * f.unit * found[1].value),
+                    .kinds = {{"first", part_of(found, 2, k)}, {"total", part_of(found, 2 + k, k)}},
+                    .no_intervals = no_intervals};
     std::size_t at = 2 + 2 * k;
     for (std::size_t i = 0; at < found.size(); ++i)
         for (std::size_t j = i + 1; j < k; ++j) effects.pairs.push_back({i, j, found[at++]});

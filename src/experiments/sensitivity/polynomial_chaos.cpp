@@ -24,10 +24,11 @@
 // standard error then uses p_u (2 p_v - p_u) instead of |p_u|^2, where v are all terms that contain
 // the inputs of u, and (f - mean f)^2 instead of the terms of V.
 //
-// Shape   eight runs or more, twenty for intervals; independent inputs. Inputs that are known to be
-//         uniform, or in [0, 1] with the mean and variance of uniform ones, have Legendre
-//         polynomials. Other inputs have polynomials of their values or of the ranks of these,
-//         whichever fit better.
+// Shape   eight runs or more, twenty for intervals; independent inputs. An input has Legendre
+//         polynomials of its probability F(x), or without known distributions, if all inputs are in
+//         [0, 1], of its value; but only if these numbers are distinct and their mean and variance
+//         are those of uniform ones, within 5 or 2.6 standard errors. Other inputs have polynomials
+//         of their values or of the ranks of these, whichever fit better.
 // Cost    for P candidates and t terms O(n P t) time for each degree, n (P + t) numbers of memory.
 //         P is at most 600 and 1e7 / n, t at most 0.4 n and 300.
 // Beware  indices are fractions of the whole variance, including noise that no input explains.
@@ -497,7 +498,7 @@ std::optional<Effects> polynomial_chaos(const Inputs& inputs, const Response& re
         .used = runs.size(),
         .samples = runs.size(),
         .mean = f.mean,
-        .variance = f.variance() * f.unit * f.unit,
+        .variance = held(f.variance() * f.unit * f.unit),
         .kinds = {{"first", {}}, {"total", {}}},
         .no_intervals = too_few_for_intervals(runs.size(), least_for_intervals, "runs")};
     for (std::size_t i = 0; i < inputs.size(); ++i) {

@@ -176,7 +176,7 @@ Effects rank_indices(const Inputs& inputs, const Response& response, const Setti
         .used = runs.size(),
         .samples = runs.size(),
         .mean = f.mean,
-        .variance = variance * f.unit * f.unit,
+        .variance = held(variance * f.unit * f.unit),
         .kinds = {{"first", std::vector<Index>(k)}},
         .no_intervals = too_few_for_intervals(runs.size(), least_for_intervals, "runs")};
     for_each_block(run, k, 1, [&](const Block& block) {

@@ -68,7 +68,9 @@ constexpr Param<std::int64_t> bootstrap{
     .low = 0,
     .high = 1'000'000,
     .unit = "resamples",
-    .help = "Number of resamples for the intervals of saltelli and morris; 0: no intervals"};
+    .help =
+        "Number of resamples for the intervals of saltelli and morris, which need 2 / (1 - "
+        "level); 0: no intervals"};
 
 constexpr Param<std::int64_t> bootstrap_seed{
     .name = "bootstrap-seed", .fallback = 1, .low = 0, .help = "Random seed of the resamples"};
@@ -357,7 +359,9 @@ std::vector<ResultKey> result_keys() {
          "points of a curve (fast), otherwise runs"},
         {"OUTPUT.mean", "mean of the output; absent for morris"},
         {"OUTPUT.variance",
-         "variance of the output, of which the indices are fractions; absent for morris"},
+         "variance of the output, of which the indices are fractions; absent for morris, and if it "
+         "is "
+         "beyond float64"},
         {"OUTPUT.q2",
          "for chaos: fraction of the variance that polynomials predict in runs not used to fit "
          "them (five-fold cross-validation); 0 or less if they predict nothing",

@@ -156,4 +156,23 @@ TEST(ElementaryEffects, RefusesTrajectoriesOnWhichAnInputMovesTwice) {
         << error;
 }
 
+// Effects of y are 0 and 1 on five trajectories each, whatever x, or a trajectory with a failed run,
+// does: sigma was 0 beside outputs of 1e200, whose squares it was compared with.
+TEST(ElementaryEffects, DeviationsHaveTheirOwnUnit) {
+    const double nan = std::nan("");
+    Rows rows;
+    for (int t = 0; t < 10; ++t)
+        for (const auto& row : t % 2 == 0 ? Rows{{0, 0, 0}, {0, 1, 1}, {1, 1, 1e200}}
+                                          : Rows{{1, 0, 1e200}, {1, 1, 1e200}, {0, 1, 1}})
+            rows.push_back(row);
+    const double deviation = std::sqrt(5. / 18);
+    EXPECT_DOUBLE_EQ(analyze(unit, points_of(rows)).number("z.y.sigma"), deviation);
+    for (auto& row : rows) row[2] = row[0] == 0 && row[1] == 1 ? 1e-150 : 0;
+    for (const auto& row : Rows{{0, 0, 1e250}, {0, 1, nan}, {1, 1, 0}}) rows.push_back(row);
+    const Report report = analyze(unit, points_of(rows));
+    EXPECT_DOUBLE_EQ(report.number("z.y.sigma") / 1e-150, deviation);
+    EXPECT_DOUBLE_EQ(report.number("z.y.mu") / 1e-150, 0.5);
+    EXPECT_EQ(report.number("z.y.sigma_low"), 0) << "a deviation is not negative";
+}
+
 }  // namespace stipple::testing::elementary_effects_test

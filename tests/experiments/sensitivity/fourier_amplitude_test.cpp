@@ -109,4 +109,15 @@ TEST(FourierAmplitude, RefusesFailedRunsAndOtherHarmonics) {
     EXPECT_EQ(error_of([&] { analyze(unit, table, {{"method", "rank"}}); }), "");
 }
 
+// The total of an input was 1 if its curve had the same output everywhere, not 0, in float64.
+TEST(FourierAmplitude, ConstantCurvesHaveNoIndices) {
+    const Rows rows = fast_rows(97, 2, 7);
+    PointSet table = with_outputs(rows, [](auto) { return 0.1; });
+    for (std::size_t s = 97; s < 194; ++s) table[s][2] = rows[s][1];
+    const Report report = analyze(unit, table);
+    EXPECT_EQ(report.text("z.x.missing"), "the output is constant on the input's curve");
+    EXPECT_EQ(report.find("z.x.total"), nullptr);
+    EXPECT_NEAR(report.number("z.y.first"), 1, 0.01);
+}
+
 }  // namespace stipple::testing::fourier_amplitude_test

@@ -223,4 +223,56 @@ TEST(PickFreeze, HasNoIndicesOfRowsThatAreNoSampleOfTheSame) {
         EXPECT_EQ(none.find(key), nullptr) << key;
 }
 
+// 2 / (1 - level) resamples have one or more beyond each end; one resample alone gave an "interval"
+// that did not contain the index.
+TEST(PickFreeze, FewResamplesGiveNoIntervals) {
+    const PointSet table =
+        with_outputs(pick_freeze_rows(make("random", points(16, 6)), false), linear);
+    const auto report_of = [&](const char* resamples, const char* level) {
+        return analyze(unit, table, {{"bootstrap", resamples}, {"level", level}});
+    };
+    EXPECT_EQ(report_of("38", "0.95").text("x4.no_intervals"),
+              "38 resamples; intervals of the level 0.95 need 39");
+    EXPECT_EQ(report_of("38", "0.95").find("x4.x1.first_low"), nullptr);
+    EXPECT_NE(report_of("39", "0.95").find("x4.x1.first_low"), nullptr);
+    EXPECT_EQ(report_of("1000", "0.9999").text("x4.no_intervals"),
+              "1000 resamples; intervals of the level 0.9999 need 19999");
+}
+
+// Resamples of a single huge output gave the total index 1.0079 an interval of width 0.04.
+TEST(PickFreeze, OneRowWithTheVarianceGivesNoIntervals) {
+    PointSet table = with_outputs(pick_freeze_rows(make("random", points(64, 6)), false), linear);
+    table[35][3] = 1e9;
+    const Report report = analyze(unit, table);
+    EXPECT_EQ(report.text("x4.no_intervals"),
+              "99.9 % of the variance is in the points 35 to 39; resamples do not show how much "
+              "such points vary");
+    EXPECT_NE(report.find("x4.x1.total"), nullptr);
+    EXPECT_EQ(report.find("x4.x1.total_low"), nullptr);
+}
+
+// Rows of complete groups that differ by rounding alone had indices of that rounding, if a group
+// with a failed run differed more.
+TEST(PickFreeze, RoundingIsNoVariance) {
+    PointSet table = with_outputs(pick_freeze_rows(make("random", points(16, 6)), false),
+                                  [](auto u) { return u[0] < 0.5 ? 0.3 : 0.3 + 0x1p-54; });
+    table[7][3] = 5;
+    table[8][3] = std::nan("");
+    EXPECT_EQ(error_of([&] { analyze(unit, table); }),
+              "input: the output x4 is constant in the 15 base rows without failed runs");
+}
+
+// The variance of outputs near 1e-200 is not 0, but beyond float64.
+TEST(PickFreeze, VariancesBeyondFloat64AreLeftOut) {
+    const auto rows = pick_freeze_rows(make("random", points(16, 6)), false);
+    const auto of_size = [&](double size) {
+        return analyze(unit, with_outputs(rows, [size](auto u) { return size * linear(u); }));
+    };
+    EXPECT_GT(of_size(1e-150).number("x4.variance"), 1e-301);
+    for (const double size : {1e-200, 1e200}) {
+        EXPECT_EQ(of_size(size).find("x4.variance"), nullptr);
+        EXPECT_NEAR(of_size(size).number("x4.x1.total"), of_size(1).number("x4.x1.total"), 1e-12);
+    }
+}
+
 }  // namespace stipple::testing::pick_freeze_test
