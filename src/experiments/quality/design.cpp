@@ -21,14 +21,15 @@
 //
 //     D = det(M)^(1/p) / n,     A = p / (n trace(M^-1)),     G = p / (n max_x f(x)^T M^-1 f(x)),
 //
-// which are 1 for an orthogonal design with all coordinates at -1 and 1, and 0 if M is singular.
+// which are 1 for an orthogonal design with all coordinates at -1 and 1, and 0 if M is singular: a
+// term is a combination of others, within about 1e-7.
 //
 // Shape   n x d, n >= 2, d <= 1000. Sums over pairs for up to 16384 points; planes for d <= 32.
 // Units   lengths of the unit cube.
 // Cost    O(n^2 d) for one set, and as much for each Latin hypercube; 0.2 s for 10 of them at n =
 //         1000, d = 5 on one core; O(n p^2 + p^3 + c p^2) for c candidates x of the maximum in G.
-// Promise infinite values (points that coincide; maxpro where two share a coordinate) are left out.
-//         The same for any number of threads.
+// Promise infinite values (points that coincide; maxpro where two share a coordinate) are left out,
+//         as is `plane` if squares of distances underflow. The same for any number of threads.
 // Source  M. D. Morris, T. J. Mitchell, J. Stat. Plan. Inference 43 (1995) 381-402,
 //         doi:10.1016/0378-3758(94)00035-T; P. Audze, V. Eglais, Problems of Dynamics and Strengths
 //         35 (1977) 104-107; V. R. Joseph, E. Gul, S. Ba, Biometrika 102 (2015) 371-380,
@@ -86,6 +87,25 @@ std::vector<double> column_of(const PointSet& points, std::size_t k) {
     return column;
 }
 
+/// A smallest or largest value, and the axes (from 0) at which it occurs.
+struct AtAxes {
+    double value = 0;
+    std::vector<std::size_t> axes = {};
+};
+
+/// Smallest distance of two points in any projection to one axis.
+AtAxes closest_on_axis(const PointSet& points) {
+    AtAxes closest{infinite, {}};
+    for (std::size_t k = 0; k < points.dimension(); ++k) {
+        auto column = column_of(points, k);
+        std::ranges::sort(column);
+        for (std::size_t i = 1; i < column.size(); ++i)
+            if (column[i] - column[i - 1] < closest.value)
+                closest = {column[i] - column[i - 1], {k}};
+    }
+    return closest;
+}
+
 struct PairSums {
     double powers = 0;       ///< sum of (minimum / distance)^p
     double reciprocals = 0;  ///< sum of 1 / distance^2
@@ -116,6 +136,24 @@ double add_separation(Report& report, const PointSet& points, const RunContext& 
     report.add("minimum_squared", minimum * minimum);
     report.add("variation", mean > 0 ? std::sqrt(squares) / mean : 0);
     return minimum;
+}
+
+/// maxpro by logarithms, for sums of products beyond float64; no two points share a coordinate.
+double maxpro_by_logarithms(const PointSet& points, double pairs) {
+    double sum = 0;
+    double largest = 0;  // the sum is that of exp(largest) times `sum`
+    for (std::size_t i = 0; i < points.count(); ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            double term = 0;
+            for (std::size_t k = 0; k < points.dimension(); ++k)
+                term -= 2 * logarithm(std::abs(points[i][k] - points[j][k]));
+            const double above = std::max(largest, term);
+            sum = sum * exponential(largest - above) + exponential(term - above);
+            largest = above;
+        }
+    const double power =
+        (largest + logarithm(sum / pairs)) / static_cast<double>(points.dimension());
+    return power > 709 ? infinite : exponential(power);
 }
 
 /// Adds the criteria that are sums over all pairs of points, unless they are infinite.
@@ -153,15 +191,11 @@ void add_pair_criteria(Report& report, const PointSet& points, double p, double 
         add("audze_eglais", all.reciprocals);
     }
     const auto pairs = 0.5 * static_cast<double>(n) * static_cast<double>(n - 1);
-    if (std::isfinite(all.products))
+    if (all.products > 1e-290 && std::isfinite(all.products))
         add("maxpro", 16 * real_power(all.products / pairs, 1 / static_cast<double>(d)));
+    else if (closest_on_axis(points).value > 0)
+        add("maxpro", maxpro_by_logarithms(points, pairs));
 }
-
-/// A smallest or largest value, and the axes (from 0) at which it occurs.
-struct AtAxes {
-    double value = 0;
-    std::vector<std::size_t> axes = {};
-};
 
 /// Adds the value and the axes, numbered from 1.
 void add_at(Report& report, const char* name, const char* name_of_axes, const AtAxes& at) {
@@ -171,6 +205,20 @@ void add_at(Report& report, const char* name, const char* name_of_axes, const At
     report.add(name_of_axes, std::move(numbers));
 }
 
+/// Subtracts the mean of numbers that are not all equal, and makes the sum of their squares 1.
+void standardize(std::vector<double>& column) {
+    const auto n = static_cast<double>(column.size());
+    const auto [low, high] = std::ranges::minmax(column);
+    constexpr double narrow = 0x1p-20;  // the mean's rounding error matters to narrower columns
+    if (const double width = high - low; width < narrow)
+        for (double& c : column) c = (c - low) / unit_for(width);
+    double mean = 0;
+    for (const double c : column) mean += c / n;
+    double squares = 0;
+    for (const double c : column) squares += (c - mean) * (c - mean);
+    for (double& c : column) c = (c - mean) / std::sqrt(squares);
+}
+
 /// Adds the correlations of all coordinates that vary, if there are at least two.
 void add_correlations(Report& report, const PointSet& points) {
     const std::size_t n = points.count();
@@ -178,13 +226,8 @@ void add_correlations(Report& report, const PointSet& points) {
     std::vector<std::vector<double>> columns;  // centred and of length 1
     for (std::size_t k = 0; k < points.dimension(); ++k) {
         auto column = column_of(points, k);
-        double mean = 0;
-        for (const double c : column) mean += c / static_cast<double>(n);
-        const auto [low, high] = std::ranges::minmax(column);
-        if (low == high) continue;
-        double squares = 0;
-        for (double& c : column) squares += (c - mean) * (c - mean);
-        for (double& c : column) c = (c - mean) / std::sqrt(squares);
+        if (std::ranges::min(column) == std::ranges::max(column)) continue;
+        standardize(column);
         axes.push_back(k);
         columns.push_back(std::move(column));
     }
@@ -196,28 +239,18 @@ void add_correlations(Report& report, const PointSet& points) {
             double sum = 0;
             for (std::size_t i = 0; i < n; ++i) sum += columns[a][i] * columns[b][i];
             squares += sum * sum;
-            if (std::abs(sum) > largest.value) largest = {std::abs(sum), {axes[b], axes[a]}};
+            const double size = std::min(std::abs(sum), 1.0);
+            if (size > largest.value) largest = {size, {axes[b], axes[a]}};
         }
     add_at(report, "largest_correlation", "largest_correlation_axes", largest);
     const auto pairs = 0.5 * static_cast<double>(axes.size() * (axes.size() - 1));
-    report.add("rms_correlation", std::sqrt(squares / pairs));
+    report.add("rms_correlation", std::min(std::sqrt(squares / pairs), 1.0));
 }
 
-/// Smallest distance of two points in any projection to one axis.
-AtAxes closest_on_axis(const PointSet& points) {
-    AtAxes closest{infinite, {}};
-    for (std::size_t k = 0; k < points.dimension(); ++k) {
-        auto column = column_of(points, k);
-        std::ranges::sort(column);
-        for (std::size_t i = 1; i < column.size(); ++i)
-            if (column[i] - column[i - 1] < closest.value)
-                closest = {column[i] - column[i - 1], {k}};
-    }
-    return closest;
-}
-
-/// Smallest distance of two points in any projection to two axes, in O(n log n) for each.
+/// Smallest distance of two points in any projection to two axes, in O(n log n) for each; infinite
+/// if squared distances of different projections underflow.
 AtAxes closest_on_plane(const PointSet& points, const RunContext& run) {
+    constexpr double least = 1e-290;
     AtAxes closest{infinite, {}};
     PointSet plane(points.count(), 2);
     for (std::size_t a = 1; a < points.dimension(); ++a)
@@ -228,7 +261,10 @@ AtAxes closest_on_plane(const PointSet& points, const RunContext& run) {
                 plane[i][1] = points[i][a];
             }
             const auto neighbors = nearest_neighbors(plane, straight_in_cube(2), silent(run));
-            const double distance = std::sqrt(closest_pair(neighbors).second.squared);
+            const auto [first, second] = closest_pair(neighbors);
+            if (second.squared < least && !std::ranges::equal(plane[first], plane[second.index]))
+                return {infinite, {}};
+            const double distance = std::sqrt(second.squared);
             if (distance < closest.value) closest = {distance, {b, a}};
         }
     return closest;
@@ -368,7 +404,8 @@ Report criteria_of(const PointSet& cube, const Values& options, const RunContext
     add_correlations(report, cube);
     add_at(report, "line_minimum", "line_axis", closest_on_axis(cube));
     if (cube.dimension() >= 2 && cube.dimension() <= most_planes)
-        add_at(report, "plane_minimum", "plane_axes", closest_on_plane(cube, run));
+        if (const AtAxes plane = closest_on_plane(cube, run); std::isfinite(plane.value))
+            add_at(report, "plane_minimum", "plane_axes", plane);
     if (const Model fitted = model_of(options); fitted != Model::none)
         add_efficiencies(report, cube, fitted, run.stage(0.7, 1));
     return report;

@@ -173,6 +173,47 @@ TEST(Design, PointsThatCoincideLeaveSumsOut) {
     EXPECT_NE(report.find("latin_hypercube.phi_p"), nullptr);
 }
 
+// Two points that differ by 1/2 in each coordinate have maxpro (1/2)^-2; it was 0 for 512
+// coordinates and more, and absent for points near each other in many.
+TEST(Design, MaxproOfManyCoordinates) {
+    const auto maxpro = [](double step, std::size_t d) {
+        const PointSet two = points_of({std::vector(d, 0.25), std::vector(d, 0.25 + step)});
+        return report_on(two, {{"model", "none"}, {"compare", "0"}}).number("maxpro");
+    };
+    EXPECT_NEAR(maxpro(0.5, 600), 4, 1e-12);
+    EXPECT_NEAR(maxpro(0x1p-10, 300), 0x1p20, 1e-6);
+}
+
+// Correlations do not depend on the place and the width of the points. In a cluster of width 1e-14
+// the rounding of the mean had made one of 0.8; widths below 1e-154 gave -1 for the largest.
+TEST(Design, CorrelationsOfClusters) {
+    const PointSet set = make("random", points(2000, 3));
+    for (const auto& [place, width] : {std::pair(0.875, 0x1p-46), {0., 0x1p-600}}) {
+        PointSet cluster = set;
+        for (std::size_t i = 0; i < set.count(); ++i)
+            for (std::size_t k = 1; k < 3; ++k)
+                cluster[i][k] = place + width * std::floor(64 * set[i][k]) / 64;
+        PointSet levels = set;
+        for (std::size_t i = 0; i < set.count(); ++i)
+            for (std::size_t k = 1; k < 3; ++k) levels[i][k] = std::floor(64 * set[i][k]) / 64;
+        const Settings settings{{"compare", "0"}, {"model", "none"}};
+        const Report found = report_on(cluster, settings);
+        const Report expected = report_on(levels, settings);
+        for (const char* key : {"largest_correlation", "rms_correlation"})
+            EXPECT_NEAR(found.number(key), expected.number(key), 1e-12) << place;
+    }
+}
+
+// Different projections whose squared distance underflows are no plane_minimum of 0.
+TEST(Design, ProjectionsBelowFloat64AreLeftOut) {
+    PointSet set = make("random", points(8, 3));
+    for (std::size_t i = 0; i < 8; ++i)
+        for (std::size_t k = 1; k < 3; ++k) set[i][k] *= 1e-200;
+    const Report report = report_on(set, {{"compare", "0"}});
+    EXPECT_EQ(report.find("plane_minimum"), nullptr);
+    EXPECT_GT(report.number("line_minimum"), 0);
+}
+
 TEST(Design, RefusesTooFewPoints) {
     const auto error = [](std::uint64_t n, std::size_t d, const Settings& settings) {
         return error_of([&] { report_on(make("random", points(n, d)), settings); });
