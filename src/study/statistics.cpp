@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "core/rng.hpp"
 #include "math/functions/distributions.hpp"
@@ -20,7 +19,11 @@ double quantile(std::span<const double> sorted, double q) {
     const auto below = static_cast<std::size_t>(at);
     if (below + 1 >= sorted.size()) return sorted.back();
     const double part = at - static_cast<double>(below);
-    return sorted[below] + part * (sorted[below + 1] - sorted[below]);
+    const double low = sorted[below];
+    const double high = sorted[below + 1];
+    if (part == 0 || low == high) return low;
+    const double step = high - low;  // may overflow
+    return std::isfinite(step) ? low + part * step : (1 - part) * low + part * high;
 }
 
 /// Largest relative difference that counts as rounding: a shift of the points, for example, changes
@@ -40,6 +43,13 @@ double scale_of(std::span<const double> numbers) {
     double largest = 0;
     for (const double x : numbers) largest = std::max(largest, std::abs(x));
     return unit_for(largest);
+}
+
+double mean_of(std::span<const double> numbers) {
+    const double scale = scale_of(numbers);  // so that their sum does not overflow
+    double sum = 0;
+    for (const double x : numbers) sum += x / scale;
+    return scale * (sum / static_cast<double>(numbers.size()));
 }
 
 /// sqrt((a^2 + b^2 + ...) / divisor)
@@ -76,10 +86,7 @@ SampleSummary summarize(std::span<const double> sample) {
     s.median = quantile(sorted, 0.5);
     // The mean of equal numbers is one of them, not their rounded sum divided by n.
     const bool same = equal_but_for_rounding(sorted.front(), sorted.back());
-    const double unit = scale_of(sample);  // the sum of the largest numbers is beyond float64
-    const auto add = [unit](double sum, double x) { return sum + x / unit; };
-    s.mean = same ? sorted[sorted.size() / 2]
-                  : unit * (std::accumulate(sample.begin(), sample.end(), 0.0, add) / n);
+    s.mean = same ? sorted[sorted.size() / 2] : mean_of(sample);
     if (sample.size() < 2) return s;
     if (same) {
         s.deviation = s.standard_error = 0;
@@ -117,15 +124,16 @@ Interval bootstrap_interval(std::span<const double> sample, double confidence,
                             const RunContext& run) {
     const std::uint64_t n = sample.size();
     const bool finite = std::ranges::all_of(sample, [](double x) { return std::isfinite(x); });
-    if (n < 2 || resamples == 0 || !finite) return {not_known, not_known};
+    const bool enough = static_cast<double>(resamples + 1) * (1 - confidence) >= 2 * (1 - 1e-9);
+    if (n < 2 || !enough || !finite) return {not_known, not_known};
     if (const SampleSummary s = summarize(sample); s.deviation == 0) return {s.mean, s.mean};
     const Rng rng(seed, stream);
+    std::vector<double> drawn(n);
     std::vector<double> means(resamples);
     for (std::uint64_t b = 0; b < resamples; ++b) {
         run.check_stop();
-        double sum = 0;
-        for (std::uint64_t i = 0; i < n; ++i) sum += sample[rng.below(b * n + i, n)];
-        means[b] = sum / static_cast<double>(n);
+        for (std::uint64_t i = 0; i < n; ++i) drawn[i] = sample[rng.below(b * n + i, n)];
+        means[b] = mean_of(drawn);
     }
     std::ranges::sort(means);
     return {quantile(means, (1 - confidence) / 2), quantile(means, (1 + confidence) / 2)};

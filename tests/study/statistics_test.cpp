@@ -107,9 +107,23 @@ TEST(Statistics, EqualNumbersHaveNoErrorHoweverTheyRound) {
     EXPECT_NEAR(welch_test(a, std::vector<double>(5, 2.0)).p_value, 0.17696542379676464, 1e-13);
 }
 
-// 400 samples of 20 uniform numbers: an exact 90 % interval contains 1/2 in 360 +- 6 of them; the
-// bootstrap's is slightly too short. Five standard deviations: false alarm below 1e-5. A 70 %
-// interval would be detected.
+// Sums of numbers near the largest overflow, their means do not; a median needs no differences.
+TEST(Statistics, MeansAndMediansOfHugeNumbers) {
+    const std::vector<double> huge = {1e308, 1.5e308, 1.7e308};
+    EXPECT_DOUBLE_EQ(summarize(huge).mean, 1.4e308);
+    EXPECT_DOUBLE_EQ(summarize(huge).deviation, std::sqrt(0.13) * 1e308);
+    EXPECT_TRUE(std::isfinite(bootstrap_interval(huge, 0.95, 100, 1).high));
+    EXPECT_EQ(summarize(std::vector{-1e308, 1e308}).median, 0);
+    const double infinite = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(summarize(std::vector{1.0, infinite, 3.0}).median, 3);
+    EXPECT_EQ(summarize(std::vector{infinite, infinite}).median, infinite);
+}
+
+TEST(Statistics, FewResamplesGiveNoInterval) {
+    EXPECT_TRUE(std::isnan(bootstrap_interval(a, 0.95, 38, 1).low));
+    EXPECT_FALSE(std::isnan(bootstrap_interval(a, 0.95, 39, 1).low));
+}
+
 TEST(Statistics, DifferencesByRoundingAreNone) {
     const std::vector<double> exact(8, 0.05767509007903701);
     std::vector<double> rounded = exact;
@@ -130,6 +144,9 @@ TEST(Statistics, DifferencesByRoundingAreNone) {
     EXPECT_EQ(welch_test(exact, other).p_value, 0);
 }
 
+// 400 samples of 20 uniform numbers: an exact 90 % interval contains 1/2 in 360 +- 6 of them; the
+// bootstrap's is slightly too short. Five standard deviations: false alarm below 1e-5. A 70 %
+// interval would be detected.
 TEST(Statistics, BootstrapIntervalsHoldTheMeanAsOftenAsTheySay) {
     const auto held = [](double confidence) {
         int count = 0;
