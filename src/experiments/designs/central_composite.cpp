@@ -100,7 +100,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
     const double a =
         alpha_of(options, static_cast<double>(corners.runs()), static_cast<double>(plan.count));
     const bool ends = options[ends_option];
-    const double unit = options[type] == "circumscribed" ? std::max(a, 1.0) : 1;
+    const double unit = std::max(a, 1.0) / (options[type] == "inscribed" ? a : 1);
     const std::string reach = format_number(unit * (ends ? 1 : 1.5));
     return level_sequence(plan, places_of(a, ends),
                           [corners](std::uint64_t i, std::size_t k) -> std::size_t {

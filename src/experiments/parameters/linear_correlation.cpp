@@ -211,9 +211,11 @@ Scored::Scored(MarginalPtr law, Of of) : law_(std::move(law)), ranks_(of == Of::
         take_panels();
     deviation_ = std::sqrt(normal_mean(cuts_, [this](double z) { return at(z) * at(z); }));
     if (!ranks_ && !(std::abs(deviation_ * deviation_ / moments.variance - 1) < 1e-6))
-        fail(ErrorKind::usage,
-             "a parameter whose tails are so heavy that much of its variance lies beyond "
-             "probabilities of 1e-300 has no computable linear correlation");
+        fail(
+            ErrorKind::usage,
+            "a parameter has no computable linear correlation if its tails are so heavy that much "
+            "of its variance lies beyond probabilities of 1e-300, or if its values are so close to "
+            "each other that float64 rounds them");
 }
 
 double Scored::number(double z) const {

@@ -333,6 +333,7 @@ class ParameterReader {
         if (given && !given->value().is_boolean()) given->refuse("expected true or false");
         const bool asked = given && given->value() == true;
         if (!(sum > 0)) place_.at("probabilities").refuse("all of them are 0");
+        if (!std::isfinite(sum)) place_.at("probabilities").refuse("their sum exceeds float64");
         if (std::abs(sum - 1) > 1e-12 && !ratios && !asked)
             place_.at("probabilities")
                 .refuse(fmt::format("the sum is {}; expected 1", sum),

@@ -84,6 +84,14 @@ TEST(CentralComposite, InscribedIsCircumscribedInAnotherBox) {
     EXPECT_EQ(coded[9][0], 1);
 }
 
+// Also if alpha is below 1, which it is without runs at the centre: the corners are then outside.
+TEST(CentralComposite, InscribedAxialRunsAreAtOne) {
+    const PointSet coded =
+        coded_design(unit, {}, {{"type", "inscribed"}, {"alpha", "orthogonal"}, {"center", "0"}});
+    EXPECT_NEAR(coded[4][0], -1, 1e-15);
+    EXPECT_NEAR(coded[0][0], -1 / 0.9101797211244548, 1e-15);
+}
+
 TEST(CentralComposite, AxialRunsReachTheFacesWithEnds) {
     const PointSet set = make(unit, {.dimension = 3}, {{"ends", "true"}, {"alpha", "2"}});
     EXPECT_EQ(set[8][0], 0);

@@ -428,6 +428,8 @@ TEST(Parameters, SayWhatIsWrongAndWhere) {
          "$.parameters[0].mean: 'b', column 1: 'b':"},
         {R"({"parameters":[{"name":"a","levels":["x","y"],"probabilities":[0.5,0.4]}]})",
          "$.parameters[0].probabilities: the sum is 0.9; expected 1"},
+        {R"({"parameters":[{"name":"a","levels":["x","y"],"probabilities":[1e308,1e308]}]})",
+         "$.parameters[0].probabilities: their sum exceeds float64"},
         {R"({"parameters":[{"name":"a","levels":["x","y"],"probabilities":[1]}]})",
          "1 probabilities for 2 levels"},
         {R"({"parameters":[{"name":"a","levels":["x","x"]}]})",
