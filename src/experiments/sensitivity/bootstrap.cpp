@@ -11,8 +11,7 @@
 // Shape   10 rows or more, and so many resamples that one or more lies beyond each end.
 // Cost    resamples x rows x terms additions; 0.4 s for 1000 x 2^14 x 24 on one core.
 // Promise the same for any number of threads: resample b depends only on the seed and b.
-// Beware  resamples do not contain what no row has shown: intervals are too short for outputs that
-//         jump at rare events.
+// Beware  resamples do not contain what no row has shown; callers allow for that.
 // Source  B. Efron, R. J. Tibshirani, "An Introduction to the Bootstrap", Chapman & Hall 1993,
 //         chapter 13 (percentile intervals); T. C. Hesterberg, Amer. Statist. 69 (2015) 371-386,
 //         doi:10.1080/00031305.2015.1089789 (expanded percentiles). Caution: measured, see
@@ -25,6 +24,7 @@
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
 #include "experiments/sensitivity/methods.hpp"
+#include "math/functions/logarithm.hpp"
 #include "math/functions/normal_distribution.hpp"
 
 namespace stipple::analyzers::sensitivity {
@@ -69,6 +69,11 @@ std::string no_bootstrap(std::size_t rows, const char* of_what, const Setting& s
         return too_few_for_intervals(rows, least_rows, of_what);
     return fmt::format("{} resamples; intervals of the level {} need {}", setting.bootstrap,
                        setting.level, needed);
+}
+
+double unseen_chance(std::size_t rows, std::size_t shown, double level) {
+    constexpr std::size_t enough = 5;
+    return shown < enough ? logarithm(2 / (1 - level)) / static_cast<double>(rows) : 0;
 }
 
 std::vector<Index> bootstrapped(const TermTable& table, std::size_t count,

@@ -8,6 +8,10 @@
 // and sigma is the standard deviation of EE over the trajectories. Steps are differences of
 // probabilities F_i(x_i) if the distributions of the inputs are known (unit_inputs).
 //
+// If the output has two values, an effect that fewer than five of r trajectories have shown may have
+// the probability q = ln(2 / (1 - level)) / r more. With M the largest effect of all inputs, the
+// intervals of mu and mu* extend by q M, and that of sigma upwards to sqrt(sigma^2 + q M^2).
+//
 // Shape   n = r (k + 1) rows: trajectories of k + 1 consecutive rows, in which each input moves
 //         once. A discrete input has no effect in trajectories in which it stays the same.
 // Units   mu, mu* and sigma have the unit of the output, since inputs are scaled to [0, 1].
@@ -18,6 +22,7 @@
 //         Comput. Phys. Commun. 182 (2011) 978-988, doi:10.1016/j.cpc.2010.12.039.
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/error.hpp"
 #include "experiments/sensitivity/methods.hpp"
@@ -124,6 +129,41 @@ double size_of(std::span<const double> y, std::size_t group, std::span<const std
     return unit_for(largest);
 }
 
+/// Whether the outputs in the given groups have two values, as those of an event.
+bool are_two(std::span<const double> y, std::size_t group, std::span<const std::size_t> groups) {
+    std::set<double> values;
+    for (const std::size_t g : groups)
+        for (const double value : y.subspan(g * group, group))
+            if (values.insert(value).second && values.size() > 2) return false;
+    return true;
+}
+
+/// Extends intervals for effects that no trajectory has shown, of an output with two values.
+void allow_for_unseen(std::vector<Index>& found, const TermTable& table, double level) {
+    const std::size_t k = table.width / 4;
+    const auto term = [&](std::size_t t, std::size_t i) {
+        return table.terms[t * table.width + i];
+    };
+    double most = 0;
+    for (std::size_t t = 0; t < table.rows(); ++t)
+        for (std::size_t i = k; i < 2 * k; ++i) most = std::max(most, term(t, i));
+    for (std::size_t i = 0; i < k; ++i) {
+        std::size_t moves = 0;
+        std::size_t shown = 0;
+        for (std::size_t t = 0; t < table.rows(); ++t) {
+            moves += term(t, 3 * k + i) > 0 ? 1 : 0;
+            shown += term(t, k + i) > 0 ? 1 : 0;
+        }
+        const double chance = shown < moves ? unseen_chance(moves, shown, level) : 0;
+        if (chance == 0) continue;
+        found[i].low -= chance * most;
+        found[i].high += chance * most;
+        found[k + i].high += chance * most;
+        double& sigma = found[2 * k + i].high;
+        sigma = std::sqrt(sigma * sigma + chance * most * most);
+    }
+}
+
 }  // namespace
 
 Layout find_trajectories(const PointSet& design) {
@@ -163,6 +203,7 @@ Effects elementary_effects(const Layout& layout, const Inputs& inputs, const Res
             }
         },
         caution, setting, run);
+    if (are_two(y, layout.group, trajectories)) allow_for_unseen(found, table.terms, setting.level);
     for (Index& index : found) index = {index.value * size, index.low * size, index.high * size};
     for (std::size_t v = k; v < 3 * k; ++v) found[v].low = std::max(found[v].low, 0.0);
     Effects effects{.used = trajectories.size() * layout.group,

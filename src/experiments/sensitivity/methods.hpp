@@ -166,6 +166,13 @@ struct TermTable {
 /// Computes statistics from the means of the terms.
 using Statistics = std::function<void(std::span<const double> means, std::span<double> values)>;
 
+/// Largest probability, at this level, of an effect that none of `rows` rows has shown; 0 if five or
+/// more have shown it.
+double unseen_chance(std::size_t rows, std::size_t shown, double level);
+
+/// Number of changes that show how large an input's changes are.
+inline constexpr std::size_t usual_changes = 20;
+
 /// Returns the first `count` statistics, computed from all rows, with their bootstrap intervals.
 std::vector<Index> bootstrapped(const TermTable& table, std::size_t count,
                                 const Statistics& statistics, double caution,

@@ -8,6 +8,13 @@
 //     total   ST_i  = mean (f(A) - f(AB_i))^2 / (2 V)
 //     second  S_ij  = mean (f(BA_i) f(AB_j) - f(A) f(B)) / V - S_i - S_j.
 //
+// If the output jumps, so that some input changes it in some base rows but not in all, an effect that
+// no row has shown may have the probability q = ln(2 / (1 - level)) / N. The intervals of inputs
+// that leave the output unchanged in some rows therefore extend by q M / V, M being the largest
+// |f(B)| times the largest |f(A) - f(AB_i)| (S), half the square of the latter (ST) or the largest
+// f^2 (S_ij), unless five rows or more have terms of M / 2. An input that changes the output in
+// fewer than 20 rows may have the largest change of any.
+//
 // Shape   n = N (k + 2) rows, for each base row A, AB_1, ..., AB_k, B; or N (2k + 2) rows: A, AB_1,
 //         ..., AB_k, BA_1, ..., BA_k, B. Copied coordinates must be equal to the last bit, which is
 //         so after any map of single coordinates.
@@ -17,6 +24,7 @@
 //         latter due to M. J. W. Jansen, Comput. Phys. Commun. 117 (1999) 35-43. Pairs and the
 //         order of rows: A. Saltelli, Comput. Phys. Commun. 145 (2002) 280-297.
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 
@@ -146,6 +154,44 @@ std::string rare_row(const TermTable& table, std::span<const std::size_t> groups
         100 * square(largest) / whole, first, first + group - 1);
 }
 
+/// Extends intervals for effects that no row has shown, if the output jumps. @param f centred outputs
+void allow_for_unseen(std::vector<Index>& found, const TermTable& table, std::span<const double> f,
+                      std::size_t k, double level) {
+    const std::size_t rows = table.rows();
+    const auto term = [&](std::size_t row, std::size_t t) {
+        return std::abs(table.terms[row * table.width + t]);
+    };
+    double largest = 0;                 // |f|
+    double of_last = 0;                 // |f(B)|
+    std::vector<double> half_steps(k);  // (f(A) - f(AB_i))^2 / 2
+    std::vector<std::size_t> steps(k);
+    for (const double z : f) largest = std::max(largest, std::abs(z));
+    for (std::size_t row = 0; row < rows; ++row) {
+        of_last = std::max(of_last, std::abs(f[(row + 1) * (f.size() / rows) - 1]));
+        for (std::size_t i = 0; i < k; ++i) {
+            half_steps[i] = std::max(half_steps[i], term(row, 2 + k + i));
+            steps[i] += term(row, 2 + k + i) > 0 ? 1 : 0;
+        }
+    }
+    if (std::ranges::none_of(steps, [&](std::size_t s) { return s > 0 && s < rows; })) return;
+    const auto widen = [&](std::size_t t, double most) {
+        std::size_t seen = 0;
+        for (std::size_t row = 0; row < rows; ++row) seen += term(row, t) >= most / 2 ? 1 : 0;
+        const double room = unseen_chance(rows, seen, level) * most / found[1].value;
+        found[t].high += room;
+        found[t].low -= room;
+    };
+    const double any = std::ranges::max(half_steps);
+    std::size_t pair = 2 + 2 * k;
+    for (std::size_t i = 0; i < k; ++i) {
+        const double half_step = steps[i] < usual_changes ? any : half_steps[i];
+        if (steps[i] < rows) widen(2 + i, of_last * std::sqrt(2 * half_step));
+        if (steps[i] < rows) widen(2 + k + i, half_step);
+        for (std::size_t j = i + 1; pair < table.width && j < k; ++j, ++pair)
+            if (steps[i] < rows || steps[j] < rows) widen(pair, largest * largest);
+    }
+}
+
 /// Outputs of the given groups, one after another.
 std::vector<double> joined(std::span<const double> y, std::size_t group,
                            std::span<const std::size_t> groups) {
@@ -203,6 +249,7 @@ Effects pick_freeze(const Layout& layout, const Inputs& inputs, const Response& 
     auto found = bootstrapped(
         table, table.width, [k](auto means, auto values) { indices_of(means, k, values); }, caution,
         how, run);
+    allow_for_unseen(found, table, f.z, k, setting.level);
     for (std::size_t i = 0; i < k; ++i)  // a total index is not negative
         found[2 + k + i].low = std::max(found[2 + k + i].low, 0.0);
     Effects effects{.used = f.z.size(),

@@ -175,4 +175,26 @@ TEST(ElementaryEffects, DeviationsHaveTheirOwnUnit) {
     EXPECT_EQ(report.number("z.y.sigma_low"), 0) << "a deviation is not negative";
 }
 
+// The event x < 0.3, y < 0.5, z < 0.9 changes with z, by a step of 2/3, where z moves between 1/3 and 1
+// (1/2) while x and y are low (1/4 and 1/2). No trajectory of ten shows that in half of the designs:
+// 51 of 100 intervals held mu*.
+TEST(ElementaryEffects, IntervalsAllowForEventsThatNoTrajectoryHasShown) {
+    const auto event = [](auto u) { return u[0] < 0.3 && u[1] < 0.5 && u[2] < 0.9 ? 1. : 0.; };
+    int mean = 0;
+    int deviation = 0;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        const PointSet design = make("morris", points(40, 3), {}, {.seed = seed});
+        const Report report = analyze(unit, with_outputs(points_in(design), event),
+                                      {{"bootstrap", "100"}, {"method", "morris"}});
+        const auto holds = [&](const std::string& key, double right) {
+            return report.number("x4.x3." + key + "_low") <= right &&
+                   right <= report.number("x4.x3." + key + "_high");
+        };
+        mean += holds("mu_star", 1.5 / 16);
+        deviation += holds("sigma", 1.5 * std::sqrt(15.) / 16);
+    }
+    EXPECT_GE(mean, 88);
+    EXPECT_GE(deviation, 88);
+}
+
 }  // namespace stipple::testing::elementary_effects_test

@@ -144,6 +144,28 @@ TEST(PickFreeze, IntervalsHoldTheIndexAsOftenAsTheySay) {
     EXPECT_LT(width, 0.4);
 }
 
+// The event u_1 < 0.3, u_2 < 0.5, u_3 < 0.9 has the probability p = 0.135, and the third input the
+// total index 0.0135 / (p (1 - p)). Of 16 base rows, most show no effect of it: 40 of 100 intervals
+// held the index. An input without effect keeps [0, 0] if the output does not jump.
+TEST(PickFreeze, IntervalsAllowForJumpsThatNoRowHasShown) {
+    const auto event = [](auto u) { return u[0] < 0.3 && u[1] < 0.5 && u[2] < 0.9 ? 1. : 0.; };
+    const double total = 0.15 * 0.09 / (0.135 * 0.865);
+    int held = 0;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        const auto rows =
+            pick_freeze_rows(make("random", points(16, 6), {}, {.seed = seed}), false);
+        const PointSet table = with_outputs(rows, event);
+        const Report report = analyze(unit, table, {{"bootstrap", "100"}});
+        if (report.find("x4.x3.total_low") == nullptr) continue;
+        held +=
+            report.number("x4.x3.total_low") <= total && total <= report.number("x4.x3.total_high");
+    }
+    EXPECT_GE(held, 88);
+    const auto rows = pick_freeze_rows(make("random", points(16, 6)), false);
+    const Report smooth = analyze(unit, with_outputs(rows, [](auto u) { return u[0] + u[1]; }));
+    EXPECT_EQ(smooth.number("x4.x3.total_high"), 0);
+}
+
 TEST(PickFreeze, FewBaseRowsHaveNoIntervals) {
     const auto report_of = [](std::size_t rows) {
         return analyze(
