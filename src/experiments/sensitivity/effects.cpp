@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/domain.hpp"
 #include "core/error.hpp"
@@ -106,6 +107,23 @@ std::vector<std::size_t> complete_groups(const Response& response, std::size_t g
         fail(ErrorKind::input, "the output {} has {} {} without failed runs; expected at least 2",
              response.name, complete.size(), what);
     return complete;
+}
+
+std::vector<double> joined(std::span<const double> y, std::size_t group,
+                           std::span<const std::size_t> groups) {
+    std::vector<double> all;
+    all.reserve(groups.size() * group);
+    for (const std::size_t g : groups)
+        std::ranges::copy(y.subspan(g * group, group), std::back_inserter(all));
+    return all;
+}
+
+bool mostly_equal(std::vector<double> y) {
+    std::ranges::sort(y);
+    const std::size_t half = (y.size() + 1) / 2;
+    for (std::size_t i = 0; i + half <= y.size(); ++i)
+        if (y[i] == y[i + half - 1]) return true;
+    return false;
 }
 
 std::string too_few_for_intervals(std::size_t count, std::size_t least, const char* of_what) {

@@ -8,9 +8,10 @@
 // and sigma is the standard deviation of EE over the trajectories. Steps are differences of
 // probabilities F_i(x_i) if the distributions of the inputs are known (unit_inputs).
 //
-// If the output has two values, an effect that fewer than five of r trajectories have shown may have
-// the probability q = ln(2 / (1 - level)) / r more. With M the largest effect of all inputs, the
-// intervals of mu and mu* extend by q M, and that of sigma upwards to sqrt(sigma^2 + q M^2).
+// If half of the outputs are equal, as those of an event, an effect that fewer than five of r
+// trajectories have shown may have the probability q = ln(2 / (1 - level)) / r more. With M the
+// largest effect of all inputs, the intervals of mu and mu* extend by q M, and that of sigma upwards
+// to sqrt(sigma^2 + q M^2).
 //
 // Shape   n = r (k + 1) rows: trajectories of k + 1 consecutive rows, in which each input moves
 //         once. A discrete input has no effect in trajectories in which it stays the same.
@@ -22,7 +23,6 @@
 //         Comput. Phys. Commun. 182 (2011) 978-988, doi:10.1016/j.cpc.2010.12.039.
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "core/error.hpp"
 #include "experiments/sensitivity/methods.hpp"
@@ -120,25 +120,14 @@ EffectTable effect_table(const Layout& layout, const PointSet& design, const Poi
     return table;
 }
 
-/// A power of two near the largest magnitude of the outputs in the given groups.
-double size_of(std::span<const double> y, std::size_t group, std::span<const std::size_t> groups) {
+/// A power of two near the largest magnitude of the outputs.
+double size_of(std::span<const double> y) {
     double largest = 0;
-    for (const std::size_t g : groups)
-        for (const double value : y.subspan(g * group, group))
-            largest = std::max(largest, std::abs(value));
+    for (const double value : y) largest = std::max(largest, std::abs(value));
     return unit_for(largest);
 }
 
-/// Whether the outputs in the given groups have two values, as those of an event.
-bool are_two(std::span<const double> y, std::size_t group, std::span<const std::size_t> groups) {
-    std::set<double> values;
-    for (const std::size_t g : groups)
-        for (const double value : y.subspan(g * group, group))
-            if (values.insert(value).second && values.size() > 2) return false;
-    return true;
-}
-
-/// Extends intervals for effects that no trajectory has shown, of an output with two values.
+/// Extends intervals for effects that few trajectories have shown, if any.
 void allow_for_unseen(std::vector<Index>& found, const TermTable& table, double level) {
     const std::size_t k = table.width / 4;
     const auto term = [&](std::size_t t, std::size_t i) {
@@ -182,7 +171,8 @@ Effects elementary_effects(const Layout& layout, const Inputs& inputs, const Res
     const auto trajectories = complete_groups(response, layout.group, "trajectories");
     const auto r = static_cast<double>(trajectories.size());
     const UnitInputs unit = unit_inputs(inputs);
-    const double size = size_of(response.y, layout.group, trajectories);
+    const std::vector<double> used = joined(response.y, layout.group, trajectories);
+    const double size = size_of(used);
     std::vector<double> y = response.y;
     for (double& value : y) value /= size;
     const EffectTable table = effect_table(layout, inputs.values, unit.u, y, trajectories);
@@ -203,7 +193,7 @@ Effects elementary_effects(const Layout& layout, const Inputs& inputs, const Res
             }
         },
         caution, setting, run);
-    if (are_two(y, layout.group, trajectories)) allow_for_unseen(found, table.terms, setting.level);
+    if (mostly_equal(used)) allow_for_unseen(found, table.terms, setting.level);
     for (Index& index : found) index = {index.value * size, index.low * size, index.high * size};
     for (std::size_t v = k; v < 3 * k; ++v) found[v].low = std::max(found[v].low, 0.0);
     Effects effects{.used = trajectories.size() * layout.group,

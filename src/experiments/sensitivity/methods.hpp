@@ -232,6 +232,13 @@ std::vector<std::size_t> complete_groups(const Response& response, std::size_t g
 
 /// Smallest number of runs for intervals of the methods for any design.
 inline constexpr std::size_t least_for_intervals = 20;
+/// Outputs of the given groups of `group` runs, one after another.
+std::vector<double> joined(std::span<const double> y, std::size_t group,
+                           std::span<const std::size_t> groups);
+
+/// Whether half of the outputs or more are equal.
+bool mostly_equal(std::vector<double> y);
+
 std::string too_few_for_intervals(std::size_t count, std::size_t least, const char* of_what);
 
 /// Reason why bootstrapped() gives no intervals for `rows` rows, such as "base rows"; empty if it

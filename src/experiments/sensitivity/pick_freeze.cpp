@@ -8,12 +8,12 @@
 //     total   ST_i  = mean (f(A) - f(AB_i))^2 / (2 V)
 //     second  S_ij  = mean (f(BA_i) f(AB_j) - f(A) f(B)) / V - S_i - S_j.
 //
-// If the output jumps, so that some input changes it in some base rows but not in all, an effect that
-// no row has shown may have the probability q = ln(2 / (1 - level)) / N. The intervals of inputs
-// that leave the output unchanged in some rows therefore extend by q M / V, M being the largest
-// |f(B)| times the largest |f(A) - f(AB_i)| (S), half the square of the latter (ST) or the largest
-// f^2 (S_ij), unless five rows or more have terms of M / 2. An input that changes the output in
-// fewer than 20 rows may have the largest change of any.
+// If half of the outputs are equal, as those of an event, an effect that no row has shown may have
+// the probability q = ln(2 / (1 - level)) / N. The intervals of inputs that leave the output
+// unchanged in some rows therefore extend by q M / V, M being the largest |f(B)| times the largest
+// |f(A) - f(AB_i)| (S), half the square of the latter (ST, upwards) or the largest f^2 (S_ij), unless
+// five rows or more have terms of M / 2. An input that changes the output in fewer than 20 rows may
+// have the largest change of any.
 //
 // Shape   n = N (k + 2) rows, for each base row A, AB_1, ..., AB_k, B; or N (2k + 2) rows: A, AB_1,
 //         ..., AB_k, BA_1, ..., BA_k, B. Copied coordinates must be equal to the last bit, which is
@@ -25,7 +25,6 @@
 //         order of rows: A. Saltelli, Comput. Phys. Commun. 145 (2002) 280-297.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 
 #include "core/error.hpp"
@@ -154,7 +153,7 @@ std::string rare_row(const TermTable& table, std::span<const std::size_t> groups
         100 * square(largest) / whole, first, first + group - 1);
 }
 
-/// Extends intervals for effects that no row has shown, if the output jumps. @param f centred outputs
+/// Extends intervals for effects that no row has shown. @param f centred outputs
 void allow_for_unseen(std::vector<Index>& found, const TermTable& table, std::span<const double> f,
                       std::size_t k, double level) {
     const std::size_t rows = table.rows();
@@ -173,13 +172,12 @@ void allow_for_unseen(std::vector<Index>& found, const TermTable& table, std::sp
             steps[i] += term(row, 2 + k + i) > 0 ? 1 : 0;
         }
     }
-    if (std::ranges::none_of(steps, [&](std::size_t s) { return s > 0 && s < rows; })) return;
     const auto widen = [&](std::size_t t, double most) {
         std::size_t seen = 0;
         for (std::size_t row = 0; row < rows; ++row) seen += term(row, t) >= most / 2 ? 1 : 0;
         const double room = unseen_chance(rows, seen, level) * most / found[1].value;
         found[t].high += room;
-        found[t].low -= room;
+        if (t < 2 + k || t >= 2 + 2 * k) found[t].low -= room;  // a total index only grows
     };
     const double any = std::ranges::max(half_steps);
     std::size_t pair = 2 + 2 * k;
@@ -190,16 +188,6 @@ void allow_for_unseen(std::vector<Index>& found, const TermTable& table, std::sp
         for (std::size_t j = i + 1; pair < table.width && j < k; ++j, ++pair)
             if (steps[i] < rows || steps[j] < rows) widen(pair, largest * largest);
     }
-}
-
-/// Outputs of the given groups, one after another.
-std::vector<double> joined(std::span<const double> y, std::size_t group,
-                           std::span<const std::size_t> groups) {
-    std::vector<double> all;
-    all.reserve(groups.size() * group);
-    for (const std::size_t g : groups)
-        std::ranges::copy(y.subspan(g * group, group), std::back_inserter(all));
-    return all;
 }
 
 }  // namespace
@@ -249,7 +237,7 @@ Effects pick_freeze(const Layout& layout, const Inputs& inputs, const Response& 
     auto found = bootstrapped(
         table, table.width, [k](auto means, auto values) { indices_of(means, k, values); }, caution,
         how, run);
-    allow_for_unseen(found, table, f.z, k, setting.level);
+    if (mostly_equal(y)) allow_for_unseen(found, table, f.z, k, setting.level);
     for (std::size_t i = 0; i < k; ++i)  // a total index is not negative
         found[2 + k + i].low = std::max(found[2 + k + i].low, 0.0);
     Effects effects{.used = f.z.size(),
