@@ -13,6 +13,7 @@
 #include "core/rng.hpp"
 #include "core/text.hpp"
 #include "io/files.hpp"
+#include "math/distributions/families.hpp"
 #include "pipeline/units.hpp"
 
 namespace stipple {
@@ -238,13 +239,14 @@ std::pair<std::size_t, std::vector<std::size_t>> left_by_warps(const SetsToMake&
     return {d, std::move(left)};
 }
 
-/// Checks bounds. @throws Error(usage) unless low < high, and every side is finite
+/// Checks bounds. @throws Error(usage) unless low < high, and points on every side can differ
 void require_box(const Box& box) {
     const std::size_t d = box.dimension();
     bool good = d > 0 && box.high.size() == d;
     for (std::size_t k = 0; good && k < d; ++k)
         good = box.low[k] < box.high[k] && std::isfinite(box.extent(k));
     if (!good) fail(ErrorKind::usage, "--bounds: expected finite low < high for each coordinate");
+    for (std::size_t k = 0; k < d; ++k) require_wide("--bounds", box.low[k], box.high[k]);
 }
 
 /// Completes a job: adds the settings that follow from named parameters, and expands the bounds to

@@ -263,6 +263,14 @@ TEST(Api, BoundsAreABoxOfThePoints) {
         EXPECT_NE(error_of([&] { generate("poisson-disk", {.bounds = box}); }), "");
     }
     EXPECT_EQ(refusal({{0, 0, 0}, {1, 1, 1}}), "usage: --bounds: 3 ranges for 2 coordinates");
+    // All points would be the lower end.
+    EXPECT_EQ(
+        refusal({{0, 1e20}, {1, 1e20 + 16384}}),
+        "usage: --bounds: the range from 1e+20 to 1.0000000000000002e+20 is so narrow that it "
+        "is lost in rounding");
+    EXPECT_EQ(
+        refusal({{0, 0}, {1, 1e-320}}),
+        "usage: --bounds: the range from 0 to 1e-320 is so narrow that it is lost in rounding");
     for (const std::string generator : {"random", "poisson-disk", "best-candidate"})
         EXPECT_EQ(
             error_of([&] {

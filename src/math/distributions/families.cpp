@@ -20,11 +20,7 @@ void require_below(const ParameterValues& p, std::string_view low, std::string_v
     if (!(p[low] < p[high]))
         fail(ErrorKind::usage, "{}{}: {} is not below {}{}, {}", p.where, low, p[low], p.where,
              high, p[high]);
-    const double width = p[high] - p[low];
-    if (!(width >= 1e-290 && is_resolved(width, std::max(std::abs(p[low]), std::abs(p[high])))))
-        fail(ErrorKind::usage,
-             "{}{}: the range from {} to {} is so narrow that it is lost in rounding", p.where, low,
-             p[low], p[high]);
+    require_wide(fmt::format("{}{}", p.where, low), p[low], p[high]);
 }
 
 /// Scale of a distribution, checked against its location.
@@ -204,6 +200,13 @@ void require_resolved(std::string_view where, double place, std::string_view wha
     if (!is_resolved(scale, place))
         fail(ErrorKind::usage, "{}: {} is so far from 0 that a {} of {} is lost in rounding", where,
              place, what, scale);
+}
+
+void require_wide(std::string_view where, double low, double high) {
+    if (!(high - low >= 1e-300 && is_resolved(high - low, std::max(std::abs(low), std::abs(high)))))
+        fail(ErrorKind::usage,
+             "{}: the range from {} to {} is so narrow that it is lost in rounding", where, low,
+             high);
 }
 
 MarginalPtr make_marginal(std::string_view name, const NamedNumbers& given,

@@ -36,6 +36,9 @@ inline bool is_resolved(double scale, double place) { return scale > 0x1p-46 * s
 /// @throws Error(usage) that begins with `where` and names the scale by `what`, unless is_resolved()
 void require_resolved(std::string_view where, double place, std::string_view what, double scale);
 
+/// The same for a range of points, which must also be at least 1e-300 wide.
+void require_wide(std::string_view where, double low, double high);
+
 using NamedNumbers = std::vector<std::pair<std::string, double>>;
 
 /// Input of a family: all parameters that were given or have defaults, checked for their ranges.

@@ -9,6 +9,7 @@
 #include "core/text.hpp"
 #include "math/densities/line_table.hpp"
 #include "math/densities/quadrature.hpp"
+#include "math/distributions/families.hpp"
 #include "math/functions/powers.hpp"
 
 namespace stipple::warps {
@@ -74,7 +75,10 @@ FormulaBox::FormulaBox(std::string spec, Expression f, Box box)
     : NamedDomain(std::move(spec), box.dimension(), box.dimension()),
       f_(std::move(f)),
       box_(std::move(box)),
-      place_(box_domain(box_)) {}
+      place_(box_domain(box_)) {
+    for (std::size_t k = 0; k < dimension(); ++k)
+        require_wide("--bounds", box_.low[k], box_.high[k]);
+}
 
 Estimate FormulaBox::integral() const {
     std::call_once(once_, [this] {

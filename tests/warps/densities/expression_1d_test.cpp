@@ -115,6 +115,14 @@ TEST(Expression1d, RefusesBadOptions) {
               "usage: --density: 0*x is 0 at all points tried from 0 to 1");
     EXPECT_EQ(error_of([] { mapping("expression-1d:density=x,range=[1,0]"); }),
               "usage: --range: '1,0' is not a,b with a < b");
+    EXPECT_EQ(
+        error_of([] { mapping("expression-1d:density=1,range=[1,1.0000000000000002]"); }),
+        "usage: --range: the range from 1 to 1.0000000000000002 is so narrow that it is lost in "
+        "rounding");
+    EXPECT_EQ(
+        error_of([] { mapping("rejection:density=1,bounds=1..1.0000000000000002"); }),
+        "usage: --bounds: the range from 1 to 1.0000000000000002 is so narrow that it is lost "
+        "in rounding");
     EXPECT_EQ(error_of([] { mapping("expression-1d:density=x,breaks=2"); }),
               "usage: --breaks: 2 is outside (0, 1)");
     EXPECT_EQ(error_of([] { inverse_of(*mapping("expression-1d:density=x"), {1.5}); }),
