@@ -195,6 +195,18 @@ void WarpChain::add_scramble(const Scramble& scramble, const Spec& spec, const C
     } else {
         traits_.seeded = true;
     }
+    for (const std::string& text : record_.specs) {  // digits of the same scramble and seed cancel
+        if (!text.starts_with(scramble.name) || values.try_find("base") == nullptr) continue;
+        const Spec earlier = parse_spec(text);
+        const bool meets = earlier.coordinates.empty() ||
+                           std::ranges::find_first_of(earlier.coordinates, step.coordinates) !=
+                               earlier.coordinates.end();
+        if (meets && earlier.values(scramble.options)[scramble_seed] == values[scramble_seed])
+            fail(ErrorKind::usage,
+                 "warp {0}: it would undo a part of the {0} before it, which has the same seed; "
+                 "give it another, such as {0}:seed=...",
+                 scramble.name);
+    }
     step.randomization =
         scramble.make(values, {.coordinates = step.coordinates, .seed = seed, .count = set.count});
     remember(scramble, spec, values);

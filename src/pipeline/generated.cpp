@@ -282,6 +282,21 @@ SetsToMake completed(SetsToMake asked, const RunContext& run) {
     return asked;
 }
 
+/// Refuses a scramble that the generator applies itself, with the same seed: digits would cancel.
+void refuse_same_scramble(const SetsToMake& asked) {
+    const Values::Item* own = asked.options.try_find("scramble");
+    for (const Spec& spec : asked.warps) {
+        const Scramble* scramble = scramble_named(spec.name);
+        const auto has_seed = [](const auto& item) { return item.first == scramble_seed.name; };
+        if (own != nullptr && scramble != nullptr && format_value(own->value) == scramble->name &&
+            std::ranges::none_of(spec.settings, has_seed))
+            fail(ErrorKind::usage,
+                 "warp {0}: it would undo a part of --scramble {0}, which has the same seed; give "
+                 "it another, such as {0}:seed=...",
+                 scramble->name);
+    }
+}
+
 }  // namespace
 
 std::string command_of(const SetsToMake& asked) {
@@ -337,6 +352,7 @@ GeneratedSets::GeneratedSets(SetsToMake asked, const RunContext& run)
     if (generator_.max_seed && asked_.sets - 1 > generator_.max_seed(asked_.options) - plan_.seed)
         fail(ErrorKind::usage, "--seed: {} and {} sets go beyond {}, the last seed of {}",
              plan_.seed, asked_.sets, generator_.max_seed(asked_.options), generator_.name);
+    refuse_same_scramble(asked_);
     if (different_sets() < asked_.sets)
         run.notify(fmt::format("{} does not use the seed: all {} sets are the same",
                                generator_.name, asked_.sets));

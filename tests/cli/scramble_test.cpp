@@ -112,4 +112,24 @@ TEST(Scramble, IsAKindOfItsOwnInTheList) {
     EXPECT_THAT(box.run({"warp", "rotation", "--help"}).out, HasSubstr("cranley-patterson"));
 }
 
+// Digits that are scrambled twice by the same random numbers were as before.
+TEST(Scramble, IsRefusedAfterItselfWithTheSameSeed) {
+    const Sandbox box;
+    const std::string make = "stipple generate sobol -n 4 -s 3 ";
+    EXPECT_EQ(box.shell(make + "-w digital-shift -w owen -w digital-shift").err,
+              "stipple: warp digital-shift: it would undo a part of the digital-shift before it, "
+              "which has the same seed; give it another, such as digital-shift:seed=...\n");
+    EXPECT_EQ(
+        box.shell(make + "--scramble owen -w owen").err,
+        "stipple: warp owen: it would undo a part of --scramble owen, which has the same seed; "
+        "give it another, such as owen:seed=...\n");
+    EXPECT_NE(box.shell(make + "-w matrix:seed=5 -w matrix@2:seed=5").code, 0);
+    for (const char* fine : {"-w owen@1 -w owen@2", "-w owen:seed=1 -w owen", "-w owen -w matrix",
+                             "--scramble owen -w owen:seed=9",
+                             "-w cranley-patterson -w "
+                             "cranley-patterson",
+                             "--scramble owen -w matrix"})
+        good(box.shell(make + fine));
+}
+
 }  // namespace stipple::testing::scramble_test
