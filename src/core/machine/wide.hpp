@@ -18,8 +18,7 @@
 #else
 #define STIPPLE_LOOPS [[gnu::optimize("O3")]]
 #if defined(__x86_64__) && defined(__ELF__)
-#define STIPPLE_WIDE \
-    STIPPLE_LOOPS [[gnu::target_clones("arch=x86-64-v4", "avx2", "default")]]
+#define STIPPLE_WIDE STIPPLE_LOOPS [[gnu::target_clones("arch=x86-64-v4", "avx2", "default")]]
 #else
 #define STIPPLE_WIDE STIPPLE_LOOPS
 #endif
