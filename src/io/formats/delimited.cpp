@@ -654,6 +654,22 @@ std::string doubt_about(const std::vector<Field>& fields, bool names, std::strin
     return counts ? "the first line is read as a point; remove it if it numbers the columns" : "";
 }
 
+/// Sentence on a column of weights that are not the inverses of the densities beside them, as the
+/// first row shows; else empty.
+std::string doubt_about_weights(const SourceText& text, const TableHead& head,
+                                const std::vector<std::string>& names) {
+    double product = 1;
+    look_at_rows(text, head.body, head.dialect.separator, [&](const std::vector<Field>& fields) {
+        for (std::size_t c = 0; c < std::min(fields.size(), names.size()); ++c)
+            if (double value = 1;
+                (names[c] == "pdf" || names[c] == "weight") && take_number(fields[c], value))
+                product *= value;
+        return false;
+    });
+    return std::abs(product - 1) > 0.01 ? "the column 'weight' is not 1 / pdf, and is not used"
+                                        : "";
+}
+
 /// Checks that rows without names are as long as the provenance above them tells. @throws
 /// Error(input)
 void require_told_width(const SourceText& text, const TableHead& head, const ReadOptions& options) {
@@ -694,6 +710,7 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
     head.top.provenance.named = head.names;
     head.body = head.names ? head.top.next : head.top.first;
     if (head.names) take_words(head, text);
+    if (head.columns.density == "pdf,weight") head.doubt = doubt_about_weights(text, head, names);
     const std::string_view comma = number_with_comma(text, head);
     head.dialect.comma = !comma.empty();
     if (may_be_thousands(comma))

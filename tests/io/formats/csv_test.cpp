@@ -386,6 +386,18 @@ TEST(Csv, PicksNoneOfColumnsOfOneName) {
     EXPECT_EQ(read_as("csv", "x,x,y\n1,2,3\n", {.columns = {"2", "y"}}).at(0), points_of({{2, 3}}));
 }
 
+TEST(Csv, SaysThatWeightsAreNotThoseOfTheDensities) {
+    const auto told = [](std::string_view text) {
+        std::string all;
+        read_as("csv", text, {.densities = true},
+                {.warn = [&](const std::string& said) { all += said; }});
+        return all;
+    };
+    EXPECT_EQ(told("x,pdf,weight\n0.5,3,2\n"),
+              "p: the column 'weight' is not 1 / pdf, and is not used");
+    EXPECT_EQ(told("x,pdf,weight\n0.5,3,0.3333\n"), "");
+}
+
 TEST(Csv, WeightsHaveADensity) {
     PointSet tiny = read_as("csv", "x,weight\n0.5,1e-310\n", {.densities = true}).at(0);
     EXPECT_EQ(error_of([&] { io::take_densities(tiny); }),
