@@ -453,6 +453,9 @@ TEST(DotMatrix, LinesHaveNoGaps) {
     DotMatrix diagonal(2, 1);
     diagonal.draw(0, 1, 1, 0);
     EXPECT_EQ(diagonal.row(0), "⠑⢄");
+    DotMatrix rising(2, 1);
+    rising.draw(0, 0, 1, 1);
+    EXPECT_EQ(rising.row(0), "⡠⠊");
 }
 
 // Cells have their lower edges, whatever rounds.

@@ -33,8 +33,10 @@ void DotMatrix::draw(double right0, double up0, double right1, double up1) {
     const double dots = std::max(std::abs(right1 - right0) * static_cast<double>(width()),
                                  std::abs(up1 - up0) * static_cast<double>(height()));
     const double steps = std::clamp(std::ceil(dots), 1.0, 1e4);
-    for (double k = 0; k <= steps; ++k)
+    set(right0, up0);
+    for (double k = 0.5; k < steps; ++k)  // the middles of steps, as their ends may be on edges
         set(right0 + (right1 - right0) * k / steps, up0 + (up1 - up0) * k / steps);
+    set(right1, up1);
 }
 
 std::string DotMatrix::row(std::size_t row, bool coloured) const {
