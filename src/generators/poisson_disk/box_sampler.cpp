@@ -42,7 +42,7 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
                 const double out = std::max({-p.place[k], p.place[k] - this->size(k), 0.0});
                 squared += out * out * grid_->scales[k] * grid_->scales[k];
             }
-            if (squared < reaching) near_.push_back(p);
+            if (squared < reaching()) near_.push_back(p);
         }
     }
 
@@ -64,7 +64,7 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
                 squared += out * out;
                 off[k] = static_cast<Real>(x);
             }
-            if (squared < reaching) near.add(off);
+            if (squared < reaching()) near.add(off);
         }
         near.close();
     }
@@ -77,7 +77,8 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
     }
 
   private:
-    static constexpr double reaching = 1 + 1e-9;  ///< squared radius with a margin for rounding
+    /// Squared radius with a margin for rounding.
+    [[nodiscard]] double reaching() const { return 1 + std::max(1e-9, 3 * grid_->slack); }
 
     /// A point whose disk overlaps the tile.
     struct Near {
@@ -99,8 +100,7 @@ class BoxSampler {
     using Counts = std::vector<PoissonCounts>;
 
   public:
-    BoxSampler(const Task<D>& task, const RunContext& run)
-        : grid_(task.grid), slack_(task.slack), rounds_(task, run) {
+    BoxSampler(const Task<D>& task, const RunContext& run) : grid_(task.grid), rounds_(task, run) {
         rounds_.make_tiles([&](std::uint32_t number) { return T(grid_, number); });
     }
 
@@ -157,7 +157,9 @@ class BoxSampler {
                   Workspace& work, const NearDisks<D, Real>& near,
                   NearDisks<D, Real>& reaching) const {
         if (rounds_.too_small(gap)) return;
-        const Real slack = std::is_same_v<Real, float> ? Real{float_slack} : Real(slack_);
+        const Real slack = std::is_same_v<Real, float>
+                               ? std::max(Real{float_slack}, static_cast<Real>(3 * grid_.slack))
+                               : static_cast<Real>(grid_.slack);
         const SubcellBits open =
             uncovered<D, Real>(near, SubcellGrid<D, Real>(gap, grid_.scales), slack, reaching);
         if (open == 0) return;
@@ -172,7 +174,6 @@ class BoxSampler {
     }
 
     const Grid<D>& grid_;
-    double slack_;
     TileRounds<T, Workspace> rounds_;
 };
 

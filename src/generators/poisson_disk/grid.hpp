@@ -9,6 +9,7 @@
 // Shape   D directions, m_k cells along each, fewer than 2^32 in all.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +27,12 @@ constexpr std::size_t power(std::size_t base, std::size_t exponent) {
     return exponent == 0 ? 1 : base * power(base, exponent - 1);
 }
 
+/// Bound on rounding errors of distances in doubles, and on those of coordinates as stored, in
+/// radii. In boxes far from the origin it may exceed the rounding errors of floats.
+inline double distance_slack(const BoxSpace& space, double radius) {
+    return 0x1p-49 * (space.largest_coordinate() / radius + 8);
+}
+
 /// Cell by its offset from the first cell of a tile; possibly outside the tile.
 template <std::size_t D>
 using TileCell = std::array<int, D>;
@@ -39,7 +46,7 @@ struct Grid {
     /// sets of several radii can share the same cells.
     /// @param tile_side maximum number of cells along a tile
     Grid(const BoxSpace& space, double disk_radius, double cell_radius, std::uint32_t tile_side)
-        : torus(space.torus), radius(disk_radius) {
+        : torus(space.torus), radius(disk_radius), slack(distance_slack(space, disk_radius)) {
         const std::vector<double> along = cells_along(space.box, cell_radius);
         for (std::size_t k = 0; k < D; ++k) {
             low[k] = space.box.low[k];
@@ -48,7 +55,7 @@ struct Grid {
             cells[k] = static_cast<std::uint32_t>(along[k]);
             widths[k] = sides[k] / cells[k];
             scales[k] = widths[k] / radius;
-            const double across = radius / widths[k] * (1 + 1e-6);
+            const double across = radius / widths[k] * (1 + std::max(1e-6, slack));
             reach[k] = static_cast<int>(across < cells[k] ? across + 1 : cells[k]);
             tiles[k] = (cells[k] + tile_side - 1) / tile_side;
             tile_count *= tiles[k];
@@ -79,6 +86,7 @@ struct Grid {
 
     bool torus;
     double radius;
+    double slack;  ///< distance_slack()
     Point low{};
     Point high{};
     Point sides{};
@@ -97,7 +105,6 @@ struct Grid {
 template <std::size_t D>
 struct Task {
     const Grid<D>& grid;
-    double slack;            ///< bound on rounding errors of distances in doubles, in radii
     std::uint64_t expected;  ///< approximate number of points
     std::uint64_t seed;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "generators/poisson_disk/maximal_disks.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -14,9 +15,10 @@ namespace {
 /// Whether the samplers of plane/ and space/ apply: in 2-D and 3-D, for five cells or more along
 /// each direction, if a radius spans two of them.
 bool is_fine(const BoxSpace& space, const std::vector<double>& cells, double radius) {
+    const double wider = 1 + std::max(1e-6, distance_slack(space, radius));
     bool fine = cells.size() <= 3;
     for (std::size_t k = 0; k < cells.size(); ++k) {
-        const double across = radius / (space.box.extent(k) / cells[k]) * (1 + 1e-6);
+        const double across = radius / (space.box.extent(k) / cells[k]) * wider;
         fine = fine && cells[k] > 4 && across >= 1 && across < 2;
     }
     return fine;
@@ -31,8 +33,7 @@ Rows sample(const BoxSpace& space, double radius, double cell_radius, std::uint6
     const double expected = expected_disks(space, radius);
     const RunContext on = worth_threads(run, expected * seconds_a_point);
     const Grid<D> grid(space, radius, cell_radius, 1U << bits);
-    const double slack = 0x1p-49 * (space.largest_coordinate() / radius + 8);
-    const Task<D> task{grid, slack, static_cast<std::uint64_t>(expected), seed};
+    const Task<D> task{grid, static_cast<std::uint64_t>(expected), seed};
     if constexpr (D == 2)
         if (fine) return plane_sample(task, on);
     if constexpr (D == 3)

@@ -69,7 +69,7 @@ constexpr Param<std::int64_t> about{
     .unit = "points",
     .help =
         "Approximate number of points, instead of --count; made in one pass. On the torus mostly "
-        "within 2 %, from 1000 points on; bounded boxes get fewer"};
+        "within 2 %, from 1000 points on; bounded boxes get fewer, varying radii up to 70 % more"};
 constexpr Param<Path> density{
     {.name = "density",
      .help = "Picture (PNG, PFM) or array (NPY, row 0 at y = 0); points per area follow its "
@@ -172,8 +172,9 @@ Packing pack_varied(const BoxSpace& space, const RadiusField& field, const Plan&
     };
     const auto once = [&](double r) { return Packing{fill(r, r, plan.seed, run), r}; };
     const auto typical = [&](double count) {
-        return std::min(space.largest_distance(),
-                        field.least() * std::sqrt(saturated_density[2] * field.darts() / count));
+        return std::min(
+            space.largest_distance(),
+            field.least() / field.unit() * std::sqrt(saturated_density[2] * field.darts() / count));
     };
     if (options.given(radius)) return once(options[radius]);
     if (options.given(about)) return once(typical(static_cast<double>(options[about])));
@@ -289,7 +290,7 @@ Generator unit() {
         .options = Schema(radius, about, density, invert_option, radius_map, mask, torus_option,
                           bounded_option, order),
         .aliases = {"poisson", "poisson-disc"},
-        .stream_version = 5,
+        .stream_version = 6,
         .plan = plan,
         .set = make};
 }

@@ -254,7 +254,7 @@ class TileRounds {
             return true;
         });
         work.exactly_near.close();
-        return uncovered<D, double>(work.exactly_near, {gap, grid.scales}, task_.slack,
+        return uncovered<D, double>(work.exactly_near, {gap, grid.scales}, grid.slack,
                                     work.exactly_reaching);
     }
 
@@ -262,7 +262,7 @@ class TileRounds {
     [[nodiscard]] bool too_small(const Gap<D>& gap) const {
         bool small = gap.level + 1U >= levels;
         for (const double scale : task_.grid.scales)
-            small = small || gap.side() * scale < 2 * task_.slack;
+            small = small || gap.side() * scale < 2 * task_.grid.slack;
         return small;
     }
 

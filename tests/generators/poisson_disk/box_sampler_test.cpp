@@ -18,7 +18,7 @@ PointSet sampled(const Space& space, double radius, std::uint64_t seed,
                  const RunContext& run = {.threads = 1}) {
     const BoxSpace box{space.box, space.torus};
     const Grid<D> grid(box, radius, radius, 1U << poisson_disk::box_tile_bits<D>);
-    const Task<D> task{grid, 0x1p-45, 1000, seed};
+    const Task<D> task{grid, 1000, seed};
     return PointSet(poisson_disk::box_sample(task, run), D);
 }
 

@@ -359,6 +359,20 @@ TEST(PoissonDisk, LongThinBoxesNeedOnlyWhatTheyTake) {
     }
 }
 
+// Coordinates near 1e12 are 2^-13 apart: more than floats' rounding errors near a radius of 1.
+TEST(PoissonDisk, EveryPairKeepsTheRadiusWhereCoordinatesAreCoarse) {
+    for (const auto& [dimension, side] : std::vector<std::pair<std::size_t, double>>{
+             {2, 30}, {3, 8}, {3, 3}, {3, 3.5001}, {4, 3}, {5, 2}})
+        for (const bool torus : {true, false})
+            for (const std::uint64_t seed : {1, 2, 3, 4}) {
+                const Space far{{std::vector<double>(dimension, 1e12),
+                                 std::vector<double>(dimension, 1e12 + side)},
+                                torus};
+                const PointSet set = fill(far, {}, {{"radius", "1"}}, seed);
+                EXPECT_GE(smallest_distance(set, far), 1) << far.name() << ", seed " << seed;
+            }
+}
+
 // Coordinates near 1e12 are 2^-13 apart.
 TEST(PoissonDisk, RefusesRadiiFinerThanTheCoordinates) {
     const Space far{{{1e12, 0}, {1e12 + 1, 1}}, true};

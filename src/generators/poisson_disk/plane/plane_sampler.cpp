@@ -24,8 +24,8 @@
 
 namespace stipple::poisson_disk {
 
-PlaneRules::PlaneRules(const Grid<2>& box_grid, double slack) : grid(box_grid), table(box_grid) {
-    const double play = position_slack + slack * units_per_radius;
+PlaneRules::PlaneRules(const Grid<2>& box_grid) : grid(box_grid), table(box_grid) {
+    const double play = position_slack + grid.slack * units_per_radius;
     const double below = units_per_radius - play;
     const double above = units_per_radius + play;
     sure = static_cast<std::int32_t>(below * below);
@@ -205,7 +205,7 @@ STIPPLE_WIDE void gather(const PlaneTile& tile, const Gap<2>& gap, NearDisks<2, 
 class PlaneSampler {
   public:
     PlaneSampler(const Task<2>& task, const RunContext& run)
-        : grid_(task.grid), rules_(grid_, task.slack), rounds_(task, run) {
+        : grid_(task.grid), rules_(grid_), rounds_(task, run) {
         std::vector<std::size_t> before{0};
         for (std::size_t t = 0; t < grid_.tile_count; ++t) {
             const auto [first, last] = grid_.tile(t);

@@ -240,7 +240,7 @@ inline constexpr double cell_unit = 0x1p26;
 
 /// Data that all tiles share.
 struct PlaneRules {
-    PlaneRules(const Grid<2>& box_grid, double slack);
+    explicit PlaneRules(const Grid<2>& box_grid);
 
     const Grid<2>& grid;
     CoverageTable table;

@@ -216,7 +216,7 @@ class SpaceSampler {
             std::array<float, 3> off;
             for (std::size_t k = 0; k < 3; ++k)
                 off[k] = static_cast<float>(place[k]) * rules_.scales[k];
-            add_pending(tile, grid_, cell, place, hits<3, float>(work.near, off, float_slack),
+            add_pending(tile, grid_, cell, place, hits<3, float>(work.near, off, rules_.slack),
                         mixer.next(), work.pending);
         });
     }

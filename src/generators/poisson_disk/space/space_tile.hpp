@@ -67,7 +67,8 @@ struct SpaceRules {
 
     static constexpr double digit = 0x1p-23;  ///< resolution of darts on sub-cells, in cells
 
-    explicit SpaceRules(const Grid<3>& box_grid) : grid(box_grid) {
+    explicit SpaceRules(const Grid<3>& box_grid)
+        : grid(box_grid), slack(std::max(float_slack, static_cast<float>(3 * box_grid.slack))) {
         for (std::size_t b = 0; b < about.size(); ++b) {
             const std::array<std::size_t, 3> along{b % 8, b % 40 / 8, b / 40};
             for (std::size_t k = 0; k < 3; ++k) {
@@ -94,10 +95,11 @@ struct SpaceRules {
             const double apart = std::max({step - low - 0.25, low - step - 1, 0.0});
             squared += apart * apart * grid.scales[k] * grid.scales[k];
         }
-        return squared < 1 + float_slack;
+        return squared < 1 + slack;
     }
 
     const Grid<3>& grid;
+    float slack;  ///< bound on rounding errors of distances to darts
     std::array<float, 3> scales{};
     std::array<Quad, 200> about;  ///< corners of the 5 x 5 x 5 cells around one, in radii
     std::array<int, 200> cells{};
@@ -167,12 +169,12 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
                 const SpaceRules::Quad off = places_[numbers[cells[b]]] + (about[b] - place);
                 const SpaceRules::Quad squares = off * off;
                 least = std::min(least, squares[0] + squares[1] + squares[2]);
-                if (least < 1 - float_slack) return true;
+                if (least < 1 - rules_->slack) return true;
             }
             return false;
         };
         if (layer(2) || layer(1) || layer(3) || layer(0) || layer(4)) return Hit::yes;
-        return least < 1 + float_slack ? Hit::unsure : Hit::no;
+        return least < 1 + rules_->slack ? Hit::unsure : Hit::no;
     }
 
     /// Calls visit(point, cell) for points of the 125 cells around one until a call returns false.

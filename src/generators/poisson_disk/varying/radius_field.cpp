@@ -98,7 +98,10 @@ void RadiusField::fill(const Box& box, const FieldSource& source, const RunConte
         for_all(seen, [&](double& f, double value) {
             if (f < closed) largest = std::max(largest, value);
         });
-        for_all(seen, [&](double& f, double value) { f *= std::sqrt(largest / value); });
+        for_all(seen, [&](double& f, double value) {
+            const double ratio = std::sqrt(largest / value);
+            f *= value > 0 ? std::min(ratio, widest) : ratio;  // the quotient may overflow
+        });
         for (double& f : cells.least)
             if (std::isnan(f)) f = closed;  // largest is 0
     }
@@ -137,12 +140,13 @@ void RadiusField::join(const Box& box, const RunContext& run) {
 }
 
 void RadiusField::measure() {
+    unit_ = std::ldexp(1.0, std::ilogb(least()));
     const auto [width, height] = levels_[0].count;
     for (std::size_t j = 0; j < height; ++j) {
         double row = 0;
         for (std::size_t i = 0; i < width; ++i) {
             const double f = levels_[0].least[j * width + i];
-            row += (lines_[0][i + 1] - lines_[0][i]) / f / f;
+            row += (lines_[0][i + 1] - lines_[0][i]) / (f / unit_) / (f / unit_);
         }
         darts_ += row * (lines_[1][j + 1] - lines_[1][j]);
     }

@@ -88,7 +88,10 @@ class RadiusField {
     /// f at a position that is known to be in the node.
     [[nodiscard]] double within(const Node& node, double x, double y) const;
 
-    /// Integral of 1 / f^2 over the rectangle.
+    /// A power of two near the minimum of f: 1 / f^2 itself may overflow.
+    [[nodiscard]] double unit() const { return unit_; }
+
+    /// Integral of (unit / f)^2 over the rectangle.
     [[nodiscard]] double darts() const { return darts_; }
 
   private:
@@ -109,6 +112,7 @@ class RadiusField {
     /// Boundaries between cells along each axis, including the two sides of the rectangle.
     std::array<std::vector<double>, 2> lines_;
     std::vector<Level> levels_;
+    double unit_ = 1;
     double darts_ = 0;
 };
 

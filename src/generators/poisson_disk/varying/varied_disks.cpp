@@ -265,7 +265,8 @@ void check_size(const BoxSpace& space, const RadiusField& field, double scale,
 }  // namespace
 
 double expected_varied(const RadiusField& field, double scale) {
-    return saturated_density[2] * field.darts() / scale / scale + 1;
+    const double unit = scale * field.unit();
+    return saturated_density[2] * field.darts() / unit / unit + 1;
 }
 
 Rows varied_disks(const BoxSpace& space, const RadiusField& field, double scale, double dart_scale,

@@ -19,7 +19,7 @@ constexpr double radius = 1.4142135623730951;  // cells of side 1, or a little l
 struct Scene {
     BoxSpace space;
     poisson_disk::Grid<2> grid{space, radius, radius, plane_side};
-    PlaneRules rules{grid, 1e-15};
+    PlaneRules rules{grid};
     std::vector<std::array<double, 2>> points;
     std::vector<std::array<std::uint32_t, 2>> cells;  ///< cell of each point
     std::vector<SubcellBits> covered = std::vector<SubcellBits>(grid.cell_count);

@@ -188,6 +188,27 @@ double count_in(const PointSet& set, double x0, double x1, double y0, double y1)
 
 }  // namespace
 
+// Ratios of densities beyond the largest double, and radii whose squares are out of range.
+TEST(VariedDisks, KeepTheRuleAtTheEndsOfFloat64) {
+    const Space square = space_named({0, 0}, {1, 1});
+    const PointSet steep = of_density("(1, 2)", {1, 1e-320}, {}, {{"radius", "0.05"}});
+    Radii field{square, 2, 1, {0.05, 5}};
+    EXPECT_GE(worst_pair(steep, field), 1);
+    EXPECT_TRUE(Cover(steep, field).complete());
+    const std::vector<double> radii{0.5, 1, 1, 2};
+    const auto made = [&](double unit, const Request& request, Settings settings) {
+        std::vector<double> lengths = radii;
+        for (double& length : lengths) length *= unit;
+        const TemporaryFile map(npy_of("<f8", "(2, 2)", lengths));
+        settings.emplace_back("radius-map", map.path());
+        return make("poisson-disk", request, settings);
+    };
+    for (const double unit : {0x1p-600, 0x1p600}) {
+        EXPECT_EQ(made(unit, {.count = 60}, {}), made(1, {.count = 60}, {}));
+        EXPECT_EQ(made(unit, {}, {{"radius", "0.05"}}), made(1, {}, {{"radius", "0.05"}}));
+    }
+}
+
 // Cells of thirds and halves give lines at 1/3, 1/2 and 2/3. By hand: 8 is the largest density
 // inside the mask, so f = sqrt(8 / density).
 TEST(RadiusField, SeesADensityThroughAMaskOfOtherCells) {
