@@ -294,25 +294,6 @@ Report against_file(const PointSet& points, const Values& options, const RunCont
     return report_of(setting, found, "file", options);
 }
 
-/// @throws Error(input) if terms of the Stein kernel overflow float64
-void require_products(const kernels::Columns& points, std::size_t dimension, double h) {
-    double squares = 0;
-    double products = 0;
-    for (std::size_t k = 0; k < dimension; ++k) {
-        const auto range = [&](std::size_t axis) {
-            const auto [low, high] =
-                std::minmax_element(points.axis(axis), points.axis(axis) + points.count());
-            return *high - *low;
-        };
-        squares += range(k) * range(k);
-        products += range(k) * range(dimension + k);
-    }
-    if (!std::isfinite(squares / h / h) || !std::isfinite(products))
-        fail(ErrorKind::input,
-             "the points are too far apart for the kernel stein in float64, with --bandwidth {}",
-             format_number(h));
-}
-
 Report against_scores(const PointSet& points, const Values& options, const RunContext& run) {
     const std::size_t width = points.dimension();
     if (width % 2 != 0)
@@ -323,7 +304,7 @@ Report against_scores(const PointSet& points, const Values& options, const RunCo
     require_finite(points);
     Setting setting{.points = {points.flat(), width}, .dimension = width / 2};
     set_bandwidth(setting, options, 1, "unit");
-    require_products(setting.points, setting.dimension, *setting.h);
+    kernels::require_stein(setting.points, setting.dimension, *setting.h);
     const auto found =
         kernels::squared_from_mean(*kernel_of(setting, options), setting.points, run);
     return report_of(setting, found, "scores", options);

@@ -88,6 +88,9 @@ KernelPtr of_l2(std::size_t dimension, l2::Kind kind);
 /// Langevin Stein kernel; points have d coordinates followed by d scores. See stein.cpp.
 KernelPtr stein(std::size_t dimension, double bandwidth);
 
+/// @throws Error(input) if terms of the Stein kernel between the points overflow float64
+void require_stein(const Columns& points, std::size_t dimension, double bandwidth);
+
 // Defined in domain_kernel.cpp.
 
 /// True if the domain's coordinates are independent, and each cube coordinate is the distribution

@@ -14,10 +14,13 @@
 //         arXiv:1703.01717 (this base kernel); Q. Liu, J. D. Lee, M. Jordan, ICML 2016,
 //         arXiv:1602.03253.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "core/machine/wide.hpp"
+#include "core/text.hpp"
 #include "math/kernels/kernel.hpp"
 
 namespace stipple::kernels {
@@ -90,6 +93,24 @@ class Stein final : public Kernel {
 };
 
 }  // namespace
+
+void require_stein(const Columns& points, std::size_t dimension, double bandwidth) {
+    double squares = 0;
+    double products = 0;
+    for (std::size_t k = 0; k < dimension; ++k) {
+        const auto range = [&](std::size_t axis) {
+            const auto [low, high] =
+                std::minmax_element(points.axis(axis), points.axis(axis) + points.count());
+            return *high - *low;
+        };
+        squares += range(k) * range(k);
+        products += range(k) * range(dimension + k);
+    }
+    if (!std::isfinite(squares / bandwidth / bandwidth) || !std::isfinite(products))
+        fail(ErrorKind::input,
+             "the points are too far apart for the kernel stein in float64, with --bandwidth {}",
+             format_number(bandwidth));
+}
 
 KernelPtr stein(std::size_t dimension, double bandwidth) {
     return std::make_unique<Stein>(dimension, bandwidth);

@@ -125,6 +125,18 @@ TEST(Subset, TellsTheValueThatTheAnalyzerFinds) {
     }
 }
 
+// With a long scale, terms of about 1 cancel to less than their rounding errors.
+TEST(Subset, BoundsValuesThatCancel) {
+    const TemporaryFile file(text_of(make("random", points(30, 2))));
+    for (const std::string by : {"gaussian", "matern"}) {
+        const PointSet set =
+            make(unit, {.count = 5}, {{"from", file.path()}, {"by", by}, {"bandwidth", "1e100"}});
+        EXPECT_EQ(found_value(set, "squared_lower"), 0) << by;
+        EXPECT_GT(found_value(set, "squared_upper"), 0) << by;
+        EXPECT_LT(found_value(set, "squared_upper"), 1e-12) << by;
+    }
+}
+
 // Oracle: each prefix is extended by the point that l2-discrepancy rates best.
 TEST(Subset, WithoutEffortChoosesGreedily) {
     const PointSet all = make("random", points(60, 2), {}, {.seed = 3});
@@ -318,6 +330,10 @@ TEST(Subset, RefusesWhatCannotBeChosenAndSaysWhy) {
     EXPECT_EQ(refusal({.count = 1}, {{"from", beyond.path()}}),
               "input: BEYOND: point 1 is outside the unit cube; it has a coordinate 1.5 | --by "
               "stein takes points outside the cube");
+    const TemporaryFile distant("1e160 1\n-1e160 2\n0 1\n");
+    EXPECT_EQ(refusal({.count = 2}, {{"from", distant.path()}, {"by", "stein"}}),
+              "input: the points are too far apart for the kernel stein in float64, with "
+              "--bandwidth 1");
     EXPECT_TRUE(refusal({}, {{"of", "sobl"}}).starts_with("usage: "));
     EXPECT_TRUE(refusal({}, {{"from", empty.path()}}).starts_with("input: "));
     EXPECT_TRUE(refusal({}, {{"from", "nowhere.csv"}}).starts_with("io: "));
