@@ -53,6 +53,13 @@ BoxSpace space_of(const Plan& plan, bool torus) {
             torus};
 }
 
+void require_squares(const Box& box, ErrorKind kind, std::string_view name) {
+    const double most = BoxSpace{box, false}.largest_distance();
+    if (!(most > 1e-140 && most < 1e150))
+        fail(kind, "{}: {} has distances whose squares are out of the range of float64", name,
+             format_box(box));
+}
+
 Plan plan_in_bounds(const Request& request) {
     return default_plan(request, 1024, request.bounds ? request.bounds->dimension() : 2);
 }
@@ -60,12 +67,7 @@ Plan plan_in_bounds(const Request& request) {
 Plan plan_in_box(const Request& request, const Values& options) {
     check_torus(options);
     const Plan plan = plan_in_bounds(request);
-    const BoxSpace space = space_of(plan, false);
-    const double most = space.largest_distance();
-    if (!(most > 1e-140 && most < 1e150))
-        fail(ErrorKind::usage,
-             "--bounds: {} has distances whose squares are out of the range of float64",
-             format_box(space.box));
+    require_squares(space_of(plan, false).box, ErrorKind::usage, "--bounds");
     return plan;
 }
 

@@ -53,12 +53,14 @@ struct BoxSpace {
 /// Space of the plan's box, or of the unit cube if it has none.
 BoxSpace space_of(const Plan& plan, bool torus);
 
+/// @throws Error of this kind naming `name` if float64 cannot represent squared distances in the box
+void require_squares(const Box& box, ErrorKind kind, std::string_view name);
+
 /// Plan for a request; its box, if there is one, determines the default dimension.
 Plan plan_in_bounds(const Request& request);
 
 /// plan_in_bounds() for generators that use distances.
-/// @throws Error(usage) if both --torus and --bounded are given, or if float64 cannot represent the
-/// squares of the box's distances
+/// @throws Error(usage) as check_torus() and require_squares()
 Plan plan_in_box(const Request& request, const Values& options);
 
 /// Side lengths of the plan's box over the shortest; empty without a box or if all are equal.

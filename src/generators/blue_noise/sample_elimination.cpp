@@ -165,6 +165,8 @@ Crowd crowd_of_file(const Plan& plan, const Values& options, const RunContext& r
     } else {
         const std::vector<double> first(points[0].begin(), points[0].end());
         space.box = bounding_box(points.flat(), {first, first});
+        if (space.box.low != space.box.high)
+            require_squares(space.box, ErrorKind::input, options[from]);
     }
     Crowd crowd{{points.flat().begin(), points.flat().end()}, std::move(space)};
     crowd.copies = copies_among(crowd.rows, points.dimension());

@@ -530,6 +530,10 @@ TEST(SampleElimination, RefusesWhatCannotBe) {
     EXPECT_NE(refusal({}, {{"torus", "true"}, {"bounded", "true"}}), "");
     EXPECT_EQ(refusal({}, {{"from", "/no/such"}}), "io: /no/such: no such file");
     EXPECT_EQ(refusal(points(10'000'000, 2), {}).substr(0, 6), "limit:");
+    const TemporaryFile tiny("0\n1e-170\n3e-170\n");
+    EXPECT_EQ(refusal({}, {{"from", tiny.path()}}),
+              "input: " + tiny.path() +
+                  ": 0..3e-170 has distances whose squares are out of the range of float64");
     const TemporaryFile flat(csv_of(points_of({{1, 1}, {1, 2}, {1, 3}})));
     EXPECT_EQ(refusal({}, {{"from", flat.path()}}),
               "input: the box around the points of " + flat.path() +
