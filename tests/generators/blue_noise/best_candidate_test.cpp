@@ -180,6 +180,16 @@ TEST(BestCandidate, FavoursNoPlaceOfTheTorus) {
     for (const double s : sum) EXPECT_LT(std::abs(s), 5 * std::sqrt(4000.0 / 12));
 }
 
+// Cells were halved until they were far smaller than the share of a candidate, or than coordinates.
+TEST(BestCandidate, EndsWithFewCandidatesAndCoarseCoordinates) {
+    const PointSet few = make_in(unit, square, 8, {{"candidates", "1e-12"}}, 1);
+    expect_inside(few, square);
+    for (const std::size_t d : {1, 2}) {
+        const Space far{{std::vector<double>(d, 1e15), std::vector<double>(d, 1e15 + 1)}, true};
+        expect_inside(make_in(unit, far, 100, {}, 1), far);
+    }
+}
+
 TEST(BestCandidate, RefusesWhatCannotBe) {
     const auto refusal = [](const Request& request, const Settings& settings) {
         return error_of([&] { make(unit, request, settings, {.max_memory = 1 << 26}); });
