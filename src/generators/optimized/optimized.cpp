@@ -84,9 +84,9 @@ constexpr Param<std::int64_t> keep{.name = "keep",
                                    .help = "Number of first points of the file to keep unchanged"};
 constexpr Param<Numbers> axis_weights{
     {.name = "weights",
-     .help = "Weight of each coordinate, above 0. star: a box has the product of the weights of "
-             "the coordinates that it bounds; L2 kinds: a projection has the product of its "
-             "coordinates' weights"}};
+     .help = "Weight of each coordinate, in [1e-30, 1000]. star: a box has the product of the "
+             "weights of the coordinates that it bounds; L2 kinds: a projection has the product of "
+             "its coordinates' weights"}};
 constexpr Param<bool> lattice{
     .name = "lattice",
     .help =
@@ -153,8 +153,8 @@ void check_weights(const Values& options, std::size_t dimension) {
         fail(ErrorKind::usage, "--weights: {} numbers for {} coordinates; give one for each",
              weights.size(), dimension);
     for (const double weight : weights)
-        if (!(weight > 0 && weight <= 1000))
-            fail(ErrorKind::usage, "--weights: {} is outside (0, 1000]", format_number(weight));
+        if (!(weight >= 1e-30 && weight <= 1000))
+            fail(ErrorKind::usage, "--weights: {} is outside [1e-30, 1000]", format_number(weight));
 }
 
 /// Rejects --lattice for objectives that depend on the lattice's shift, or with initial points.
@@ -373,7 +373,9 @@ std::optional<PublishedStar> published_star(std::uint64_t count, std::size_t dim
     return *found;
 }
 
-void record(PointSet& points, const Plan& plan, const Values& options, const Bounds& value) {
+/// @param least whether a search for a lattice has found that no other one is better
+void record(PointSet& points, const Plan& plan, const Values& options, const Bounds& value,
+            bool least) {
     std::string name = options[objective];
     std::ranges::replace(name, '-', '_');
     const bool box = !is_l2(options) && options[objective] != "dispersion";
@@ -383,7 +385,7 @@ void record(PointSet& points, const Plan& plan, const Values& options, const Bou
     if (value.upper > value.lower)
         found = {{name + "_lower", format_number(value.lower)},
                  {name + "_upper", format_number(value.upper)}};
-    if (options[lattice] && value.upper == value.lower)
+    if (options[lattice] && least && value.upper == value.lower)
         found.emplace_back("certificate", "optimal-of-lattices");
     if (options[objective] != "star" || options.given(axis_weights)) return;
     const auto known = published_star(plan.count, plan.dimension);
@@ -477,7 +479,12 @@ PointSet finished(OptimizedRows found, const Plan& plan, const Values& options,
                                    weights_of(options), last);
     PointSet points(std::move(found.rows), plan.dimension);
     const std::uint64_t work = std::uint64_t{1} << (found.stopped ? 24U : 37U);
-    if (valued) record(points, plan, options, judged(points, options, work, last));
+    if (valued) {
+        const Bounds value = judged(points, options, work, last);
+        // A search value is a lower bound if the worst box was not found in time.
+        const bool sure = is_l2(options) || value.upper <= found.value * (1 + 1e-12);
+        record(points, plan, options, value, sure && !found.stopped);
+    }
     if (found.stopped) points.provenance.found.emplace_back(interrupted);
     return points;
 }

@@ -343,6 +343,19 @@ TEST(Optimized, KeepsTheBestWhenItIsStopped) {
         }
 }
 
+TEST(Optimized, CertifiesNoLatticeUnlessAllWereTried) {
+    std::stop_source source;
+    RunContext run{.threads = 1, .stop = source.get_token(), .keeps_best = true};
+    run.progress = [&](double done) {
+        if (done > 0) source.request_stop();
+    };
+    const PointSet set = make("optimized", points(400, 2),
+                              {{"objective", "l2-wraparound"}, {"lattice", "true"}}, run);
+    ASSERT_EQ(set.provenance.found.size(), 2U);
+    EXPECT_EQ(set.provenance.found[0].first, "l2_wraparound_discrepancy");
+    EXPECT_EQ(set.provenance.found[1].second, "interrupted");
+}
+
 // On a line the optimal points are known, for as many as fit into memory.
 TEST(Optimized, AsksForTheMemoryOfItsPoints) {
     EXPECT_TRUE(error_of([&] {
@@ -385,7 +398,10 @@ TEST(Optimized, RefusesWhatItCannotMake) {
                 ::testing::HasSubstr("outside the unit cube"));
     EXPECT_EQ(error(points(9, 2), {{"weights", "1,2,3"}}),
               "usage: --weights: 3 numbers for 2 coordinates; give one for each");
-    EXPECT_THAT(error(points(9, 2), {{"weights", "1,0"}}), ::testing::HasSubstr("outside (0, "));
+    EXPECT_THAT(error(points(9, 2), {{"weights", "1,0"}}),
+                ::testing::HasSubstr("0 is outside [1e-30, 1000]"));
+    EXPECT_THAT(error(points(9, 2), {{"weights", "1e-31,1"}}), ::testing::HasSubstr("[1e-30, "));
+    EXPECT_EQ(error(points(3, 2), {{"weights", "1e-30,1e-30"}, {"effort", "1e-6"}}), "");
     EXPECT_THAT(error(points(9, 2), {{"weights", "1,2"}, {"objective", "dispersion"}}),
                 ::testing::HasSubstr("objective dispersion takes no weights"));
     EXPECT_THAT(error(points(9, 2), {{"lattice", "true"}}),
