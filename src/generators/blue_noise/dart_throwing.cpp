@@ -178,6 +178,7 @@ std::pair<std::vector<double>, double> throw_all(Darts darts, const BoxSpace& sp
         if (missed < patience) continue;
         if (stays) break;
         r *= options[shrink];
+        space.check_resolution(r, "a radius");
         missed = 0;
     }
     if (darts.count() < wanted || darts.count() <= plan.start)
