@@ -185,7 +185,7 @@ TEST(BestCandidate, EndsWithFewCandidatesAndCoarseCoordinates) {
     const PointSet few = make_in(unit, square, 8, {{"candidates", "1e-12"}}, 1);
     expect_inside(few, square);
     for (const std::size_t d : {1, 2}) {
-        const Space far{{std::vector<double>(d, 1e15), std::vector<double>(d, 1e15 + 1)}, true};
+        const Space far{{std::vector<double>(d, 1e15), std::vector<double>(d, 1e15 + 16)}, true};
         expect_inside(make_in(unit, far, 100, {}, 1), far);
     }
 }
