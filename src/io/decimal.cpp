@@ -3,12 +3,12 @@
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
+#include <langinfo.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
-#include <clocale>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -89,7 +89,7 @@ void append_cut(std::string& out, double value, int precision) {
 /// zero if too small.
 double beyond_range(const char* first, const char* end) {
     std::string text(first, end);
-    replace_all(text, ".", std::localeconv()->decimal_point);  // which strtod() expects
+    replace_all(text, ".", ::nl_langinfo(RADIXCHAR));  // as strtod() expects; safe in threads
     return std::strtod(text.c_str(), nullptr);
 }
 
