@@ -476,34 +476,14 @@ struct TableHead {
     Dialect dialect;
     Columns columns;
     bool names = false;          ///< the first line is a header
-    bool row_names = false;      ///< the first column has no name and holds row names
-    std::string counter = {};    ///< name of a coordinate column that numbers the rows
-    std::string measure = {};    ///< column pdf or weight, if its use must be reported
-    std::string doubt = {};      ///< sentence on what may be read in another way
     const char* body = nullptr;  ///< start of the rows
     bool words_to_find = false;  ///< the first row has words that are not known levels
-    /// Sentences on replaced names.
-    std::vector<std::string> replaced = {};
+    /// Sentences on replaced names and on what may be meant otherwise.
+    std::vector<std::string> notes = {};
 
-    void tell_row_names(const std::string& source, const RunContext& run) const {
-        for (const std::string& sentence : replaced)
-            run.notify(fmt::format("{}: {}", source_name(source), sentence));
-        if (row_names)
-            run.notify(
-                fmt::format("{}: the first column has no name; it is read as row names and left "
-                            "out; --column picks columns by number",
-                            source_name(source)));
-        if (!doubt.empty()) run.notify(fmt::format("{}: {}", source_name(source), doubt));
-        if (!measure.empty())
-            run.notify(
-                fmt::format("{}: the column '{}' is used as the {} of the points, not as a "
-                            "coordinate; --column picks columns by name",
-                            source_name(source), measure, measure == "pdf" ? "density" : measure));
-        if (!counter.empty())
-            run.notify(
-                fmt::format("{}: the column '{}' counts the rows but is used as a coordinate; "
-                            "--column picks the others",
-                            source_name(source), counter));
+    void report(const std::string& source, const RunContext& run) const {
+        for (const std::string& note : notes)
+            if (!note.empty()) run.notify(fmt::format("{}: {}", source_name(source), note));
     }
 };
 
@@ -646,16 +626,15 @@ std::string doubt_about(const std::vector<Field>& fields, bool names, std::strin
     };
     if (names && std::ranges::all_of(fields, looks_like_number))
         return fmt::format(
-            "the first line is read as names of columns, though {} begins like a "
-            "number",
+            "the first line is read as names of columns, though {} begins like a number",
             shown(fields[0].text));
     bool counts = !names && fields.size() > 1 && below.find('.') != below.npos;
     for (std::size_t k = 0; k < fields.size(); ++k) counts &= fields[k].text == std::to_string(k);
     return counts ? "the first line is read as a point; remove it if it numbers the columns" : "";
 }
 
-/// Sentence on a column of weights that are not the inverses of the densities beside them, as the
-/// first row shows; else empty.
+/// Sentence on weights that are not the inverses of the densities beside them in the first row;
+/// else empty.
 std::string doubt_about_weights(const SourceText& text, const TableHead& head,
                                 const std::vector<std::string>& names) {
     double product = 1;
@@ -670,8 +649,8 @@ std::string doubt_about_weights(const SourceText& text, const TableHead& head,
                                         : "";
 }
 
-/// Checks that rows without names are as long as the provenance above them tells. @throws
-/// Error(input)
+/// Checks that rows without names are as long as the provenance above them states.
+/// @throws Error(input)
 void require_told_width(const SourceText& text, const TableHead& head, const ReadOptions& options) {
     const std::size_t told = head.top.provenance.dimension;
     const std::size_t found = head.columns.dimension - (options.strengths.empty() ? 0 : 1);
@@ -697,32 +676,47 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
     head.names = !names.empty();
     if (!head.names && head.top.provenance.columns.size() == fields.size())
         names = head.top.provenance.columns;
-    head.row_names =
-        head.names && names[0].empty() && options.columns.empty() && !options.all_columns;
     head.dialect.model_line = text.line_of(head.top.first);
     head.columns = choose_columns(names, fields.size(), options,
                                   fmt::format("{}:{}", text.source(), head.dialect.model_line));
-    head.replaced = replace_names(head.columns.names, options.gaps);
-    if (options.all_columns) head.replaced.clear();
+    if (auto sentences = replace_names(head.columns.names, options.gaps); !options.all_columns)
+        head.notes = std::move(sentences);
     require_told_width(text, head, options);
-    head.doubt = doubt_about(fields, head.names, line_at(text, head.top.next));
     tell_columns(head.top.provenance, head.columns, options);
     head.top.provenance.named = head.names;
     head.body = head.names ? head.top.next : head.top.first;
     if (head.names) take_words(head, text);
-    if (head.columns.density == "pdf,weight") head.doubt = doubt_about_weights(text, head, names);
+    const bool chosen = !options.columns.empty() || options.all_columns;
+    const bool row_names = head.names && names[0].empty() && !chosen;
+    if (row_names)
+        head.notes.emplace_back(
+            "the first column has no name; it is read as row names and left out; --column picks "
+            "columns by number");
+    head.notes.push_back(doubt_about(fields, head.names, line_at(text, head.top.next)));
+    // Digits that were cut may change the product of a density and its inverse.
+    if (head.columns.density == "pdf,weight" && !head.top.provenance.precision)
+        head.notes.push_back(doubt_about_weights(text, head, names));
     const std::string_view comma = number_with_comma(text, head);
     head.dialect.comma = !comma.empty();
     if (may_be_thousands(comma))
-        head.doubt = fmt::format("{} is read as {}, not as thousands", comma, with_point(comma));
-    if (head.names && !head.row_names && fields.size() > 1 && options.columns.empty() &&
-        !options.all_columns && names[0] != "set" &&
-        counts_rows(text, head.body, head.dialect.separator))
-        head.counter = names[0];
+        head.notes.push_back(
+            fmt::format("{} is read as {}, not as thousands", comma, with_point(comma)));
     // Files by stipple have default names next to pdf or weight, which need no notice.
+    std::string measure;
     if (head.names && options.columns.empty() && !head.top.provenance.columns.empty())
         for (std::size_t c = 0; c < names.size(); ++c)
-            if (head.columns.role[c] == Columns::checked) head.measure = names[c];
+            if (head.columns.role[c] == Columns::checked) measure = names[c];
+    if (!measure.empty())
+        head.notes.push_back(
+            fmt::format("the column '{}' is used as the {} of the points, not as a coordinate; "
+                        "--column picks columns by name",
+                        measure, measure == "pdf" ? "density" : measure));
+    if (head.names && !row_names && !chosen && fields.size() > 1 && names[0] != "set" &&
+        counts_rows(text, head.body, head.dialect.separator))
+        head.notes.push_back(fmt::format(
+            "the column '{}' counts the rows but is used as a coordinate; --column picks the "
+            "others",
+            names[0]));
     return head;
 }
 
@@ -897,7 +891,7 @@ std::vector<PointSet> read_delimited(std::string_view bytes, const ReadOptions& 
                                      const RunContext& run) {
     const SourceText text(bytes, options.source);
     TableHead head = read_head(text, options);
-    head.tell_row_names(options.source, run);
+    head.report(options.source, run);
     find_words(head, text, options.source, run);
     const Columns& columns = head.columns;
     Rows rows = read_rows(text, head.body, columns, head.dialect, run);
@@ -923,7 +917,7 @@ std::unique_ptr<PointStream> stream_delimited(std::unique_ptr<Feed>& feed,
     }
     const bool cut_off = std::find(head->body, front.end(), front.newline()) == front.end();
     if (cut_off || head->words_to_find) return nullptr;
-    head->tell_row_names(options.source, run);
+    head->report(options.source, run);
     return std::make_unique<DelimitedStream>(std::move(feed), *head, front, options, run);
 }
 
