@@ -88,9 +88,10 @@ std::optional<CarriedMeta> meta_beside(const std::string& points, const RunConte
 }
 
 bool CarriedMeta::begins(std::string_view bytes) const {
+    if (front.empty()) return true;
     FrontFingerprint found;
     found.add(bytes);
-    return front.empty() || front == found.text();
+    return front == found.text();
 }
 
 bool CarriedMeta::fits(std::size_t of_sets, std::uint64_t count, std::size_t numbers,

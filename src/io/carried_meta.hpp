@@ -28,7 +28,7 @@ struct CarriedMeta {
     std::vector<std::string> extras = {};  ///< names of the numbers after the coordinates
     Provenance provenance = {};
 
-    /// Whether a file may begin with these bytes.
+    /// Whether the recorded fingerprint, if any, is that of a file that begins with these bytes.
     [[nodiscard]] bool begins(std::string_view bytes) const;
 
     /// Whether this provenance fits a file with these bytes, sets, points and numbers per point.

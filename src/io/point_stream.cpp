@@ -53,18 +53,16 @@ class HeldSets final : public PointStream {
     std::size_t at_ = 0;  ///< numbers of this set already read
 };
 
-/// Hint of errors if FILE.meta.json states the number of points.
-std::string stale_hint(const std::string& source) {
-    return meta_path(source) + " states their number; remove it if it is of other points";
-}
-
 class RawStream final : public PointStream {
   public:
     RawStream(std::unique_ptr<Feed> feed, const RawShape& shape, const ReadOptions& options)
         : feed_(std::move(feed)),
           shape_(shape),
           source_(source_name(options.source)),
-          hint_(options.beside && shape.offset == 0 ? stale_hint(source_) : "") {
+          hint_(options.beside && shape.offset == 0
+                    ? fmt::format("{} states their number; remove it if it is of other points",
+                                  meta_path(source_))
+                    : "") {
         std::vector<std::string> names;
         const CarriedMeta* const beside = options.beside;
         const bool known = beside && shape.count &&
@@ -501,27 +499,20 @@ std::unique_ptr<PointStream> open_points(std::unique_ptr<Feed> feed, const std::
     ReadOptions inner = options;
     if (inner.source == "-") inner.source = path;
     inner.single = options.single || extension_is_single(path);
-    auto beside = usable_beside(path, options, run);
-    const auto not_used = [&](const std::string& why) {
-        run.notify(fmt::format("{}: not used, since {}", meta_path(path), why));
-    };
-    const std::string others = "it is of other points";
-    if (beside && !beside->begins(feed->front())) {
-        const bool raw = (format ? *format : format_for(path, feed->front())).name == "bin";
-        if (raw && !options.dimension)
-            fail_with_hint(ErrorKind::input, stale_hint(path),
-                           "{}: its first bytes are not those that {} tells of", path,
-                           meta_path(path));
-        not_used(others);
-        beside.reset();
-    }
-    if (beside) {
-        if (!format && !format_of_extension(path)) format = &format_named(beside->of);
+    const auto beside = usable_beside(path, options, run);
+    const bool usable = beside && beside->begins(feed->front());
+    if (usable && !format && !format_of_extension(path)) format = &format_named(beside->of);
+    const Format& chosen = format != nullptr ? *format : format_for(path, feed->front());
+    const bool raw_size = chosen.name == "bin" && !options.dimension;  // is to be read from beside
+    if (beside && !usable && raw_size)
+        fail_with_hint(
+            ErrorKind::input, "remove that file, or give --dimension, if it is of other points",
+            "{}: its first bytes differ from those that {} records", path, meta_path(path));
+    if (usable) {
         inner.beside = &*beside;
         inner.single |= beside->single;
+        if (raw_size) inner.dimension = beside->width;
     }
-    const Format& chosen = format != nullptr ? *format : format_for(path, feed->front());
-    if (beside && !inner.dimension && chosen.name == "bin") inner.dimension = beside->width;
     std::unique_ptr<PointStream> points;
     if (chosen.stream && !feed->ends_in_front()) points = chosen.stream(feed, inner, run);
     if (!points) {
@@ -529,9 +520,11 @@ std::unique_ptr<PointStream> open_points(std::unique_ptr<Feed> feed, const std::
         points = std::make_unique<HeldSets>(
             read_sets(feed->ends_in_front() ? feed->front() : whole, path, inner, run, format));
     }
-    if (beside && points->provenance().count == 0)
-        not_used(beside->sets == 0 ? "it does not state where its sets of different sizes end"
-                                   : others);
+    if (beside && (!usable || points->provenance().count == 0))
+        run.notify(fmt::format("{}: not used, since {}", meta_path(path),
+                               usable && beside->sets == 0
+                                   ? "it does not state where its sets of different sizes end"
+                                   : "it is of other points"));
     return points;
 }
 

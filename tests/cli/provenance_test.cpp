@@ -152,8 +152,9 @@ TEST(Provenance, BesideRawNumbersIsNotTakenForOthers) {
                   "stipple generate random -n 32 -o p.bin"));
     const Outcome outcome = box.run({"convert", "p.bin", "-f", "csv"});
     EXPECT_EQ(outcome.code, 3);
-    EXPECT_THAT(outcome.err, HasSubstr("p.bin: its first bytes are not those that p.bin.meta.json "
-                                       "tells of; p.bin.meta.json states their number"));
+    EXPECT_THAT(outcome.err,
+                HasSubstr("p.bin: its first bytes differ from those that p.bin.meta.json "
+                          "records; remove that file, or give --dimension, if"));
     EXPECT_EQ(good(box.shell("stipple convert -q p.bin -d 2 -f csv")),
               good(box.run({"generate", "random", "-n", "32"})));
 }
