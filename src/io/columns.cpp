@@ -204,13 +204,14 @@ void take_densities(PointSet& set) {
     for (std::size_t i = 0; i < set.count(); ++i) {
         std::ranges::copy(set[i].first(d), points[i].begin());
         const double number = set[i][d];
-        if (!(pdf ? number > 0 : number == 0 || (number > 0 && std::isfinite(1 / number))))
+        const double density = pdf ? number : 1 / number;
+        if (!(pdf ? number > 0 : number == 0 || (number > 0 && std::isfinite(density))))
             fail(ErrorKind::input, "point {}: its {} is {}; expected a number {}", i, column,
                  number,
                  pdf          ? "above 0"
                  : number < 0 ? "not below 0"
                               : "whose inverse is a double");
-        points.densities.push_back(pdf ? number : 1 / number);
+        points.densities.push_back(density);
     }
     points.domain = std::move(set.domain);
     points.provenance = std::move(set.provenance);
@@ -219,7 +220,7 @@ void take_densities(PointSet& set) {
 
 namespace {
 
-/// Whether --column picks all coordinates of which the provenance tells, in order.
+/// Whether --column picks all coordinates that the provenance describes, in order.
 bool picks_all(const Columns& columns, const ReadOptions& options, const Provenance& made) {
     const std::size_t first = columns.has(Columns::set_number) ? 1 : 0;
     bool all =
@@ -237,7 +238,7 @@ void tell_columns(Provenance& provenance, const Columns& columns, const ReadOpti
         provenance.levels = whole.levels;
         provenance.precision = whole.precision;
         provenance.single = whole.single;
-        // Tells sets of one kind from others, as the generator would.
+        // The rest is equal for sets that differ only in their seeds, which are averaged.
         whole.seed = provenance.seed;
         if (whole.command.find(" --count ") == std::string::npos) whole.count = 0;
         whole.command.clear();
@@ -271,11 +272,8 @@ bool is_set_number(double value) {
 
 std::vector<PointSet> gather_sets(std::vector<double> rows, std::size_t dimension,
                                   std::vector<Mark> marks, const Provenance& provenance) {
-    // Removes the marks of `#` lines, which do not separate the sets of a table, and repetitions:
-    // every block marks its first set number again.
+    // `#` lines do not separate the sets of a table.
     std::erase_if(marks, [](const Mark& mark) { return std::isnan(mark.number); });
-    const auto same = [](const Mark& a, const Mark& b) { return a.number == b.number; };
-    marks.erase(std::unique(marks.begin(), marks.end(), same), marks.end());
     std::unordered_map<double, std::size_t> order;
     std::vector<std::uint64_t> numbers;
     for (const Mark& mark : marks)
@@ -296,18 +294,19 @@ std::vector<PointSet> gather_sets(std::vector<double> rows, std::size_t dimensio
     return result;
 }
 
-Provenance provenance_of_set(Provenance first, std::uint64_t set) {
+std::uint64_t seed_of_set(const Provenance& first, std::uint64_t set) {
     const bool scrambled = std::ranges::any_of(first.warps, [](const std::string& spec) {
         return spec.find("seed=") != std::string::npos;
     });
-    if (!first.generator.empty() && !scrambled) first.seed += set;
-    return first;
+    return first.generator.empty() || scrambled ? first.seed : first.seed + set;
 }
 
 void tell_origin(std::vector<PointSet>& sets, const Provenance& provenance,
                  const std::vector<std::uint64_t>& numbers) {
-    for (std::size_t r = 0; r < sets.size(); ++r)
-        sets[r].provenance = provenance_of_set(provenance, numbers.empty() ? r : numbers.at(r));
+    for (std::size_t r = 0; r < sets.size(); ++r) {
+        sets[r].provenance = provenance;
+        sets[r].provenance.seed = seed_of_set(provenance, numbers.empty() ? r : numbers.at(r));
+    }
 }
 
 std::vector<PointSet> cut_sets(std::vector<double> rows, std::size_t dimension,

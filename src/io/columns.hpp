@@ -78,9 +78,8 @@ DensityColumns density_columns(const Provenance& provenance);
 /// set.densities. @throws Error(input) naming the first point with an invalid value
 void take_densities(PointSet& set);
 
-/// Stores names and density column of the chosen columns in the provenance of a file. If --column
-/// picks other coordinates, or another order, the points are not those that the provenance makes:
-/// then it no longer says how they were made.
+/// Stores names and density column of the chosen columns in the provenance of a file. Drops the
+/// recipe, which `flaw` then describes, if --column picks other coordinates or another order.
 void tell_columns(Provenance& provenance, const Columns& columns, const ReadOptions& options);
 
 /// Drops the columns of a table that are not coordinates.
@@ -93,16 +92,16 @@ struct Mark {
     double number;  ///< the set's number; NaN for lines between rows
 };
 
-/// Whether a number can be that of a set: 0, 1, 2, ...
+/// Whether a number can be that of a set: 0, 1, 2, ... up to 2^53.
 bool is_set_number(double value);
 
 /// Groups rows by set number, at the marks with one; sets are ordered by their first rows.
 std::vector<PointSet> gather_sets(std::vector<double> rows, std::size_t dimension,
                                   std::vector<Mark> marks, const Provenance& provenance);
 
-/// Provenance of a set in a file, from that of set 0. Generated sets have consecutive seeds, except
-/// if they were scrambled: then only the scrambles' seeds differ.
-Provenance provenance_of_set(Provenance first, std::uint64_t set);
+/// Seed of a set in a file, from the provenance of set 0. Generated sets have consecutive seeds,
+/// except if they were scrambled: then only the scrambles' seeds differ.
+std::uint64_t seed_of_set(const Provenance& first, std::uint64_t set);
 
 /// Sets the provenance of each set of a file. @param numbers of the sets; empty: 0, 1, 2, ...
 void tell_origin(std::vector<PointSet>& sets, const Provenance& provenance,

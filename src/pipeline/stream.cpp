@@ -25,7 +25,7 @@ void keep_common(Provenance& common, const Provenance& other, std::uint64_t plac
     };
     keep_equal(common.options, other.options);
     keep_equal(common.found, other.found);
-    const std::uint64_t seed = io::provenance_of_set(common, place).seed;
+    const std::uint64_t seed = io::seed_of_set(common, place);
     const bool seeded = seed != common.seed;  // else the seeds of scrambles in the warps differ
     if (other.generator != common.generator || other.command != common.command ||
         other.start != common.start || other.shard != common.shard ||

@@ -322,8 +322,7 @@ std::vector<Mark> marks_of(const SourceText& text, std::span<const double> table
     for (std::size_t i = 0; i < table.size(); i += width) {
         if (!is_set_number(table[i]))
             text.refuse_whole(
-                fmt::format("point {}: {} is not the number of a set; expected 0, 1, "
-                            "2...",
+                fmt::format("point {}: {} is not the number of a set; expected 0, 1, 2...",
                             i / width, table[i]));
         if (i == 0 || table[i] != table[i - width])
             marks.push_back({.row = i / width, .at = text.begin(), .number = table[i]});
@@ -338,13 +337,14 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
     reader.read();
     const Columns columns = json_columns(text, reader.head, reader.width, options, run);
     reader.require_numbers(columns);
-    const bool numbered = columns.has(Columns::set_number) && reader.starts.size() == 1;
-    auto marks = numbered ? marks_of(text, reader.numbers, reader.width) : std::vector<Mark>();
+    std::vector<Mark> marks;
+    if (columns.has(Columns::set_number) && reader.starts.size() == 1)
+        marks = marks_of(text, reader.numbers, reader.width);
     std::vector<double> numbers = keep_coordinates(std::move(reader.numbers), columns);
-    std::vector<PointSet> sets = numbered ? gather_sets(std::move(numbers), columns.dimension,
-                                                        std::move(marks), reader.head.provenance)
-                                          : cut_sets(std::move(numbers), columns.dimension,
-                                                     reader.starts, reader.head.provenance);
+    const std::size_t d = columns.dimension;
+    const Provenance& provenance = reader.head.provenance;
+    auto sets = marks.empty() ? cut_sets(std::move(numbers), d, reader.starts, provenance)
+                              : gather_sets(std::move(numbers), d, std::move(marks), provenance);
     std::vector<std::uint64_t> counts;
     for (const PointSet& set : sets) counts.push_back(set.count());
     if (!options.any_count) check_counts(text, reader.head, counts);

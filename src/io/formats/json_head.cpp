@@ -26,7 +26,9 @@ std::vector<std::uint64_t> whole_numbers(const SourceText& text, const char* at,
 
 std::string json_head(const Layout& layout, const Counts& counts, std::uint64_t number) {
     Json head{{"format", "stipple.points"}, {"version", 1}};
-    head["meta"] = to_json(provenance_of_set(layout.provenance, number));
+    Provenance provenance = layout.provenance;
+    provenance.seed = seed_of_set(provenance, number);
+    head["meta"] = to_json(provenance);
     head["dimension"] = layout.dimension;
     Json& count = head["count"] = Json::array();
     if (counts.are_equal() && counts.size() > 0)

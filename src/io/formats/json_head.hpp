@@ -20,7 +20,7 @@
 namespace stipple::io {
 
 /// Returns the head as text, without a closing brace. Extras add "columns":["x","y","pdf"].
-/// @param number in the file of the set of which the provenance is
+/// @param number index in the file of the first set after the head
 std::string json_head(const Layout& layout, const Counts& counts, std::uint64_t number = 0);
 
 struct JsonHead {

@@ -71,8 +71,8 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
     std::vector<PointSet> sets =
         cut_sets(std::move(rows.numbers), columns.dimension, starts, head.provenance);
     for (const Mark& mark : rows.marks) {
-        PointSet& set =
-            sets[static_cast<std::size_t>(std::ranges::find(starts, mark.row) - starts.begin())];
+        const auto start = std::ranges::lower_bound(starts, mark.row);
+        PointSet& set = sets[static_cast<std::size_t>(start - starts.begin())];
         JsonHead own = head_at(text, mark.at);
         if (!own.columns.empty() && own.columns != head.columns)
             text.refuse(mark.at, fmt::format("the columns are {}; those of the first set are {}",
