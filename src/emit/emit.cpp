@@ -332,10 +332,9 @@ Words words_of(const SetsToMake& job, const Plan& plan, Language language, const
         for (const std::uint32_t base : generator.bases(plan, job.options))
             bases.numbers.push_back(base);
         std::uint64_t most = 0;  // largest number of images of digits, over all bases
-        for (const std::uint64_t base :
-             bases.numbers)  // digits, from that of 1, of numbers below 2^62
-            for (std::uint64_t rest = (std::uint64_t{1} << 62) - 1, images = 0; rest > 0;
-                 rest /= base)
+        constexpr std::uint64_t last = (std::uint64_t{1} << 62) - 1;  // number with most digits
+        for (const std::uint64_t base : bases.numbers)
+            for (std::uint64_t rest = last, images = 0; rest > 0; rest /= base)
                 most = std::max(most, images += base);
         words["all_images"] = std::to_string(most);
         const std::uint64_t largest = std::ranges::max(bases.numbers);

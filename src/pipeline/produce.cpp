@@ -119,12 +119,12 @@ class Producer {
     void tell_found() const {
         const auto found = sets_.provenance(0, 0).found;
         if (target_.take || found.empty() || found[0].first != "vector") return;
-        const bool all = found.back().first == "squared_error";
+        const bool known = found.size() > 1;
         run_.notify(fmt::format(
             "{}: found generating vector {}, figure of merit {} (squared worst-case error{})",
             generator_.name, found[0].second,
-            found.size() > 1 ? found[1].second : "beyond the range of numbers",
-            all || found.size() == 1 ? "" : " of all points of the lattice"));
+            known ? found[1].second : "beyond the range of numbers",
+            known && found.back().first != "squared_error" ? " of all points of the lattice" : ""));
     }
 
     /// Makes one set in memory: generates and warps it, and cuts out the shard.

@@ -326,9 +326,9 @@ void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, st
         fail_with_hint(
             ErrorKind::input, "--column picks the coordinates, which are then taken to be uniform",
             "the points have a column of densities; scrambles are for points with density 1");
+    const std::string& picked = sets.front().provenance.flaw;
     for (const Generator& generator : generators::all())
-        if (const std::string& picked = sets.front().provenance.flaw;
-            generator.bases &&
+        if (generator.bases &&
             picked.find(fmt::format("generator: \"{}\"", generator.name)) != std::string::npos)
             run.notify(
                 fmt::format("--column picked coordinates of {}; the base of their digits is "

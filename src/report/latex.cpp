@@ -50,9 +50,9 @@ int exponent_of(double x, int digits) {
 std::string shifted(double value, int exponent, int digits) {
     const int half = exponent / 2;
     const double number = value / std::pow(10.0, half) / std::pow(10.0, exponent - half);
-    const std::string text = fmt::format("{:.{}f}", number, digits);
-    return text.find_first_not_of("-0.") == std::string::npos && text[0] == '-' ? text.substr(1)
-                                                                                : text;
+    std::string text = fmt::format("{:.{}f}", number, digits);
+    if (text.find_first_not_of("-0.") == std::string::npos && text[0] == '-') text.erase(0, 1);
+    return text;
 }
 
 }  // namespace
@@ -80,8 +80,9 @@ std::string latex_number(double value, double half_width) {
     const bool scaled = first < -3 || first > 5;
     const int unit = scaled ? first : 0;
     const int digits = std::clamp(unit - last, 0, 15);
-    std::string text = shifted(value, unit, digits);
-    if (scaled && !spread) text = fmt::format("{:.3e}", value), text.resize(text.find('e'));
+    std::string text =
+        scaled && !spread ? fmt::format("{:.3e}", value) : shifted(value, unit, digits);
+    text.resize(std::min(text.find('e'), text.size()));
     if (spread) text += " \\pm " + shifted(half_width, unit, digits);
     if (!scaled) return "$" + text + "$";
     if (spread) text = "(" + text + ")";
