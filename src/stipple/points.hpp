@@ -94,7 +94,7 @@ struct Provenance {
     std::vector<std::pair<std::string, std::string>> found = {};
     /// Units whose stream_version is above 1, each with that version.
     std::vector<std::pair<std::string, std::uint64_t>> stream_versions = {};
-    /// Description of an invalid field in provenance that was read; empty if all are valid.
+    /// Why provenance that was read is no recipe: an invalid field, or picked columns; else empty.
     std::string flaw = {};
     /// The generator's points are independent. Not written, since it follows from the generator's
     /// name.

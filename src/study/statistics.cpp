@@ -38,15 +38,8 @@ bool equal_but_for_rounding(double a, double b) {
 /// a - b, or 0 if they are equal except for rounding.
 double difference_of(double a, double b) { return equal_but_for_rounding(a, b) ? 0 : a - b; }
 
-/// Unit for the numbers: squares of their quotients by it neither overflow nor all vanish.
-double scale_of(std::span<const double> numbers) {
-    double largest = 0;
-    for (const double x : numbers) largest = std::max(largest, std::abs(x));
-    return unit_for(largest);
-}
-
 double mean_of(std::span<const double> numbers) {
-    const double scale = scale_of(numbers);  // so that their sum does not overflow
+    const double scale = unit_for(numbers);  // so that their sum does not overflow
     double sum = 0;
     for (const double x : numbers) sum += x / scale;
     return scale * (sum / static_cast<double>(numbers.size()));
@@ -54,7 +47,7 @@ double mean_of(std::span<const double> numbers) {
 
 /// sqrt((a^2 + b^2 + ...) / divisor)
 double root_of_squares(std::span<const double> numbers, double divisor) {
-    const double scale = scale_of(numbers);
+    const double scale = unit_for(numbers);
     double squares = 0;
     for (const double x : numbers) squares += x / scale * (x / scale);
     return scale * std::sqrt(squares / divisor);
@@ -145,7 +138,7 @@ MeanTest welch_test(std::span<const double> a, std::span<const double> b) {
     if (!(a.size() > 1 && b.size() > 1))
         return tested(difference_of(x.mean, y.mean), not_known, not_known);
     const std::array errors = {x.standard_error, y.standard_error};
-    const double scale = scale_of(errors);
+    const double scale = unit_for(errors);
     const double u = errors[0] / scale * (errors[0] / scale);
     const double v = errors[1] / scale * (errors[1] / scale);
     const double share = u / (u + v);

@@ -590,9 +590,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
 
 /// Squares are taken in units of a power of two, so that none overflows, and not all underflow.
 double root_mean_square(const std::vector<double>& numbers) {
-    double largest = 0;
-    for (const double x : numbers) largest = std::max(largest, std::abs(x));
-    const double unit = unit_for(largest);
+    const double unit = unit_for(numbers);
     Tally squares;
     for (const double x : numbers) squares.add(x / unit * (x / unit));
     return std::sqrt(squares.mean()) * unit;

@@ -120,13 +120,6 @@ EffectTable effect_table(const Layout& layout, const PointSet& design, const Poi
     return table;
 }
 
-/// A power of two near the largest magnitude of the outputs.
-double size_of(std::span<const double> y) {
-    double largest = 0;
-    for (const double value : y) largest = std::max(largest, std::abs(value));
-    return unit_for(largest);
-}
-
 /// Extends intervals for effects that few trajectories have shown, if any.
 void allow_for_unseen(std::vector<Index>& found, const TermTable& table, double level) {
     const std::size_t k = table.width / 4;
@@ -172,7 +165,7 @@ Effects elementary_effects(const Layout& layout, const Inputs& inputs, const Res
     const auto r = static_cast<double>(trajectories.size());
     const UnitInputs unit = unit_inputs(inputs);
     const std::vector<double> used = joined(response.y, layout.group, trajectories);
-    const double size = size_of(used);
+    const double size = unit_for(used);
     std::vector<double> y = response.y;
     for (double& value : y) value /= size;
     const EffectTable table = effect_table(layout, inputs.values, unit.u, y, trajectories);

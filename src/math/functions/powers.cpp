@@ -48,6 +48,12 @@ double unit_for(double size) {
     return std::ldexp(1.0, std::clamp(std::ilogb(size), -1022, 1022));
 }
 
+double unit_for(std::span<const double> numbers) {
+    double largest = 0;
+    for (const double x : numbers) largest = std::max(largest, std::abs(x));
+    return unit_for(largest);
+}
+
 double real_power_of(std::size_t base, std::size_t exponent) {
     return whole_power(static_cast<double>(base), exponent);
 }
