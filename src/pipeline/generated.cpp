@@ -285,16 +285,14 @@ SetsToMake completed(SetsToMake asked, const RunContext& run) {
 /// Refuses a scramble that the generator applies itself, with the same seed: digits would cancel.
 void refuse_same_scramble(const SetsToMake& asked) {
     const Values::Item* own = asked.options.try_find("scramble");
-    for (const Spec& spec : asked.warps) {
-        const Scramble* scramble = scramble_named(spec.name);
-        const auto has_seed = [](const auto& item) { return item.first == scramble_seed.name; };
-        if (own != nullptr && scramble != nullptr && format_value(own->value) == scramble->name &&
-            std::ranges::none_of(spec.settings, has_seed))
+    if (own == nullptr) return;
+    const auto has_seed = [](const auto& item) { return item.first == scramble_seed.name; };
+    for (const Spec& spec : asked.warps)
+        if (spec.name == format_value(own->value) && std::ranges::none_of(spec.settings, has_seed))
             fail(ErrorKind::usage,
                  "warp {0}: it would undo a part of --scramble {0}, which has the same seed; give "
                  "it another, such as {0}:seed=...",
-                 scramble->name);
-    }
+                 spec.name);
 }
 
 }  // namespace
