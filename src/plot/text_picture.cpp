@@ -121,10 +121,10 @@ void draw_bars(DotMatrix& dots, const Bars& bars, const Axis& x, const Axis& y, 
         const auto first_from = [&](double share) {
             return std::ceil(share * columns - 0.5 - 1e-9);
         };
-        double column = first_from(left);
-        double end = first_from(right);
-        if (column >= end) end = 1 + (column = std::floor((left + right) / 2 * columns));
-        for (; column < end; ++column)
+        const bool thin = first_from(left) >= first_from(right);
+        const double first = thin ? std::floor((left + right) / 2 * columns) : first_from(left);
+        const double end = thin ? first + 1 : first_from(right);
+        for (double column = first; column < end; ++column)
             dots.draw((column + 0.5) / columns, base, (column + 0.5) / columns, top);
     }
 }

@@ -450,9 +450,9 @@ def integrate(function: Callable[[Floats], ArrayLike], generator: Unit, n: Whole
         estimates.append(_in_unit(values if plain else values / pdf(x, mapping or ""), np.mean))
     rows = [("", "", 0, 0, r, "", value, "") for r, value in enumerate(estimates)]
     centre, low, high = _stipple.means(rows, confidence)[0][6:9]
-    all_estimates = np.array(estimates)
-    error = _in_unit(all_estimates, lambda x: np.std(x, ddof=1) / np.sqrt(replications))
-    return Integral(centre, error, low, high, all_estimates)
+    replicates = np.array(estimates)
+    error = _in_unit(replicates, lambda values: np.std(values, ddof=1) / np.sqrt(replications))
+    return Integral(centre, error, low, high, replicates)
 
 
 def read(path: Path, *, format: str = "", d: Whole = 0, single: bool = False, threads: Whole = 0,
