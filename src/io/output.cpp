@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <system_error>
 #include <vector>
 
@@ -89,10 +90,9 @@ bool leaves_descriptors(int descriptor) {
             static_cast<rlim_t>(descriptor) + spare < limit.rlim_cur);
 }
 
-/// The objects with temporary files, each of which knows the one before it.
 struct Living {
     std::mutex mutex;
-    PartFiles* last = nullptr;
+    std::set<PartFiles*> objects;
 };
 Living& living() {
     static Living all;
@@ -103,18 +103,16 @@ Living& living() {
 
 PartFiles::PartFiles() {
     const std::lock_guard lock(living().mutex);
-    before_ = std::exchange(living().last, this);
-    if (before_ != nullptr) before_->after_ = this;
+    living().objects.insert(this);
 }
 
 PartFiles::~PartFiles() {
     const std::lock_guard lock(living().mutex);
-    (after_ != nullptr ? after_->before_ : living().last) = before_;
-    if (before_ != nullptr) before_->after_ = after_;
+    living().objects.erase(this);
 }
 
 void PartFiles::remove_all() noexcept {
-    for (PartFiles* one = living().last; one != nullptr; one = one->before_) one->remove_parts();
+    for (PartFiles* one : living().objects) one->remove_parts();
 }
 
 Output::Output(std::string path, std::stop_token stop)

@@ -34,10 +34,6 @@ class PartFiles {
   protected:
     /// Removes the files of this object, if any.
     virtual void remove_parts() noexcept = 0;
-
-  private:
-    PartFiles* before_ = nullptr;  ///< the object made before this one
-    PartFiles* after_ = nullptr;
 };
 
 /// A file that appears only when it is complete, or standard output for "-". Devices and pipes are
