@@ -233,7 +233,7 @@ std::vector<double> with_columns(std::span<const double> rows, std::span<const d
         // was scaled.
         if (!warped) volume = stream.domain->measure();
         if (!(volume > 0 && volume < std::numeric_limits<double>::infinity()))
-            fail(ErrorKind::input, "--with-{}: the volume of the bounds is not a double above 0",
+            fail(ErrorKind::input, "--with-{}: the volume of the bounds is beyond float64",
                  columns.names().front());
         densities = own;
     }

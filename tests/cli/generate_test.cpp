@@ -739,7 +739,7 @@ TEST(Generate, DensitiesInBoundsAreDoubles) {
         }
         for (const char* bounds : {"0..1e-100", "0..1e100"})
             EXPECT_EQ(in(bounds).err, std::string("stipple: ") + column +
-                                          ": the volume of the bounds is not a double above 0\n");
+                                          ": the volume of the bounds is beyond float64\n");
     }
 }
 

@@ -92,7 +92,7 @@ def real(name: str, value: object, low: float, high: float, expected: str) -> fl
 
 
 def is_masked(x: object) -> bool:
-    """Whether elements of an array, or of a list of rows, are masked, which NumPy's arrays are not."""
+    """Whether elements of an array, or of a list of arrays, are masked; np.asarray() would take them."""
     parts = x if isinstance(x, (list, tuple)) else [x]
     return any(isinstance(one, np.ma.MaskedArray) and bool(one.mask.any()) for one in parts)
 
