@@ -121,12 +121,13 @@ Interval bootstrap_interval(std::span<const double> sample, double confidence,
     if (n < 2 || !enough || !finite) return {not_known, not_known};
     if (const SampleSummary s = summarize(sample); s.deviation == 0) return {s.mean, s.mean};
     const Rng rng(seed, stream);
-    std::vector<double> drawn(n);
+    const double scale = unit_for(sample);  // so that sums do not overflow
     std::vector<double> means(resamples);
     for (std::uint64_t b = 0; b < resamples; ++b) {
         run.check_stop();
-        for (std::uint64_t i = 0; i < n; ++i) drawn[i] = sample[rng.below(b * n + i, n)];
-        means[b] = mean_of(drawn);
+        double sum = 0;
+        for (std::uint64_t i = 0; i < n; ++i) sum += sample[rng.below(b * n + i, n)] / scale;
+        means[b] = scale * (sum / static_cast<double>(n));
     }
     std::ranges::sort(means);
     return {quantile(means, (1 - confidence) / 2), quantile(means, (1 + confidence) / 2)};

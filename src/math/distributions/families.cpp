@@ -23,6 +23,8 @@ void require_below(const ParameterValues& p, std::string_view low, std::string_v
     require_wide(fmt::format("{}{}", p.where, low), p[low], p[high]);
 }
 
+bool is_resolved(double scale, double place) { return scale > 0x1p-46 * std::abs(place); }
+
 /// Scale of a distribution, checked against its location.
 double resolved(const ParameterValues& p, std::string_view scale, std::string_view location) {
     require_resolved(fmt::format("{}{}", p.where, location), p[location], scale, p[scale]);

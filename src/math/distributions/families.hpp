@@ -7,7 +7,6 @@
 // and distributions of measured numbers.
 #pragma once
 
-#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -29,14 +28,11 @@ struct MarginalParameter {
     bool whole = false;  ///< true if only integers are allowed
 };
 
-/// True if at least 64 doubles near `place` are within one `scale`: points of a narrower distribution
-/// would be rounded to few numbers.
-inline bool is_resolved(double scale, double place) { return scale > 0x1p-46 * std::abs(place); }
-
-/// @throws Error(usage) that begins with `where` and names the scale by `what`, unless is_resolved()
+/// @throws Error(usage) that begins with `where` and names the scale by `what`, if fewer than about 64
+/// doubles near `place` are within one scale: points would be rounded to few numbers
 void require_resolved(std::string_view where, double place, std::string_view what, double scale);
 
-/// The same for a range of points, which must also be at least 1e-300 wide.
+/// The same for a range of points, which must also have a width of 1e-300 or more.
 void require_wide(std::string_view where, double low, double high);
 
 using NamedNumbers = std::vector<std::pair<std::string, double>>;

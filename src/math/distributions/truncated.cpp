@@ -113,12 +113,12 @@ MarginalMoments moments_in(const Marginal& law, double middle, double unit) {
 
 MarginalMoments moments_by_quadrature(const Marginal& law) {
     const double middle = law.quantile(0.5);
-    const double half = law.quantile(0.25, Tail::upper) - law.quantile(0.25);
-    const MarginalMoments usual = moments_in(law, middle, half);
+    const double quartiles = law.quantile(0.25, Tail::upper) - law.quantile(0.25);
+    const MarginalMoments usual = moments_in(law, middle, quartiles);
     const auto [low, high] = law.support();
-    const double reach = std::max(middle - low, high - middle);
-    const bool overflown = !std::isfinite(usual.skewness) && std::isfinite(reach);
-    return overflown ? moments_in(law, middle, reach) : usual;
+    const double reach = std::max(middle - low, high - middle);  // so that powers do not overflow
+    return std::isfinite(usual.skewness) || !std::isfinite(reach) ? usual
+                                                                  : moments_in(law, middle, reach);
 }
 
 MarginalPtr truncated(MarginalPtr law, double low, double high, std::string_view where) {

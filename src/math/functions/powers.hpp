@@ -29,6 +29,8 @@ inline double whole_power(double x, std::size_t exponent) {
 /// The largest power of 2 up to a size, between 2^-1022 and 2^1022; 1 if the size is 0 or not finite.
 /// Dividing numbers of this size by it keeps their digits, and their powers leave float64 no more.
 double unit_for(double size);
+/// The same for the largest magnitude of several numbers.
+double unit_for(std::span<const double> numbers);
 
 /// The unit for the largest magnitude of the numbers.
 double unit_for(std::span<const double> numbers);

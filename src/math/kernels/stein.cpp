@@ -99,9 +99,8 @@ void require_stein(const Columns& points, std::size_t dimension, double bandwidt
     double products = 0;
     for (std::size_t k = 0; k < dimension; ++k) {
         const auto range = [&](std::size_t axis) {
-            const auto [low, high] =
-                std::minmax_element(points.axis(axis), points.axis(axis) + points.count());
-            return *high - *low;
+            const std::span numbers(points.axis(axis), points.count());
+            return std::ranges::max(numbers) - std::ranges::min(numbers);
         };
         squares += range(k) * range(k);
         products += range(k) * range(dimension + k);
