@@ -139,10 +139,11 @@ double add_separation(Report& report, const PointSet& points, const RunContext& 
 }
 
 /// maxpro by logarithms, for sums of products beyond float64; no two points share a coordinate.
-double maxpro_by_logarithms(const PointSet& points, double pairs) {
+double maxpro_by_logarithms(const PointSet& points, double pairs, const RunContext& run) {
     double sum = 0;
     double largest = 0;  // the sum is that of exp(largest) times `sum`
-    for (std::size_t i = 0; i < points.count(); ++i)
+    for (std::size_t i = 0; i < points.count(); ++i) {
+        run.check_stop();
         for (std::size_t j = 0; j < i; ++j) {
             double term = 0;
             for (std::size_t k = 0; k < points.dimension(); ++k)
@@ -151,6 +152,7 @@ double maxpro_by_logarithms(const PointSet& points, double pairs) {
             sum = sum * exponential(largest - above) + exponential(term - above);
             largest = above;
         }
+    }
     const double power =
         (largest + logarithm(sum / pairs)) / static_cast<double>(points.dimension());
     return power > 709 ? infinite : exponential(power);
@@ -194,7 +196,7 @@ void add_pair_criteria(Report& report, const PointSet& points, double p, double 
     if (all.products > 1e-290 && std::isfinite(all.products))
         add("maxpro", 16 * real_power(all.products / pairs, 1 / static_cast<double>(d)));
     else if (closest_on_axis(points).value > 0)
-        add("maxpro", maxpro_by_logarithms(points, pairs));
+        add("maxpro", maxpro_by_logarithms(points, pairs, run));
 }
 
 /// Adds the value and the axes, numbered from 1.

@@ -8,10 +8,10 @@
 // distances from the statistic are multiplied by 1 + caution / n for errors that resamples miss: a
 // few rows may hide skewness, and rows of a low-discrepancy base may be alike in some coordinates.
 //
-// Shape   10 rows or more, and so many resamples that one or more lies beyond each end.
+// Shape   10 rows or more, and enough resamples that at least one lies beyond each end.
 // Cost    resamples x rows x terms additions; 0.4 s for 1000 x 2^14 x 24 on one core.
 // Promise the same for any number of threads: resample b depends only on the seed and b.
-// Beware  resamples do not contain what no row has shown; callers allow for that.
+// Beware  resamples contain no effect that no row has shown; callers allow for such effects.
 // Source  B. Efron, R. J. Tibshirani, "An Introduction to the Bootstrap", Chapman & Hall 1993,
 //         chapter 13 (percentile intervals); T. C. Hesterberg, Amer. Statist. 69 (2015) 371-386,
 //         doi:10.1080/00031305.2015.1089789 (expanded percentiles). Caution: measured, see
@@ -29,11 +29,6 @@
 
 namespace stipple::analyzers::sensitivity {
 namespace {
-
-constexpr std::size_t least_rows = 10;  // smallest number of rows for intervals
-
-/// Number of resamples of which one or more is beyond each end of an interval.
-double resamples_for(double level) { return std::ceil(2 / (1 - level) * (1 - 1e-9)) - 1; }
 
 /// Quantile at p of the finite values; NaN if there are none.
 double quantile(std::vector<double>& values, double p) {
@@ -63,10 +58,11 @@ void take_means(const TermTable& table, std::span<const double> uniform, std::sp
 }  // namespace
 
 std::string no_bootstrap(std::size_t rows, const char* of_what, const Setting& setting) {
-    const double needed = resamples_for(setting.level);
-    if (rows < least_rows || setting.bootstrap == 0 ||
-        static_cast<double>(setting.bootstrap) >= needed)
-        return too_few_for_intervals(rows, least_rows, of_what);
+    constexpr std::size_t least = 10;
+    const double needed = std::ceil(2 / (1 - setting.level) * (1 - 1e-9)) - 1;
+    const auto given = static_cast<double>(setting.bootstrap);
+    if (rows < least || given == 0 || given >= needed)
+        return too_few_for_intervals(rows, least, of_what);
     return fmt::format("{} resamples; intervals of the level {} need {}", setting.bootstrap,
                        setting.level, needed);
 }

@@ -74,8 +74,8 @@ Layout find_moves(const PointSet& design, bool star) {
     return {.group = group, .star = star};
 }
 
-/// Terms EE - c, |EE|, ((EE - c) / unit)^2 and 1 for each input, one row per trajectory; all 0 if
-/// the input did not move. `centre` has the mean effect c of each input, `unit` the size of EE - c.
+/// Terms z, |EE|, z^2 and 1 for each input, with z = (EE - centre) / unit, one row per trajectory;
+/// all 0 if the input did not move. `centre` is an input's mean effect, `unit` the size of EE - centre.
 struct EffectTable {
     TermTable terms;
     std::vector<double> centre;
@@ -114,8 +114,9 @@ EffectTable effect_table(const Layout& layout, const PointSet& design, const Poi
     for (double& unit : table.unit) unit = unit_for(unit);
     for (std::size_t t = 0; t < trajectories.size(); ++t)
         for (std::size_t i = 0; i < k; ++i) {
-            const double part = terms_of(t)[i] / table.unit[i];
-            terms_of(t)[2 * k + i] = part * part;
+            double& z = terms_of(t)[i];
+            z /= table.unit[i];
+            terms_of(t)[2 * k + i] = z * z;
         }
     return table;
 }
@@ -177,9 +178,8 @@ Effects elementary_effects(const Layout& layout, const Inputs& inputs, const Res
                 const double moves = means[3 * k + i];
                 const double count = std::round(r * moves);
                 const double off = means[i] / moves;
-                const double apart = off / table.unit[i];
-                const double square = means[2 * k + i] / moves - apart * apart;
-                values[i] = table.centre[i] + off;
+                const double square = means[2 * k + i] / moves - off * off;
+                values[i] = table.centre[i] + table.unit[i] * off;
                 values[k + i] = means[k + i] / moves;
                 values[2 * k + i] =
                     table.unit[i] * std::sqrt(std::max(square, 0.0) * count / (count - 1));

@@ -13,7 +13,7 @@
 // Cost    O(n N / (4 M)).
 // Beware  errors come from aliasing and from overlapping harmonics, and no interval shows them. If
 //         harmonics above the M-th matter, S is too small, by an eighth for an input with two levels
-//         of 1/4 and 3/4, and ST is too small or too large; so it is in many dimensions.
+//         of 1/4 and 3/4, and ST is too small or too large, as in many dimensions.
 // Source  A. Saltelli, S. Tarantola, K. P.-S. Chan, Technometrics 41 (1999) 39-56,
 //         doi:10.1080/00401706.1999.10485594.
 #include "core/error.hpp"

@@ -166,12 +166,9 @@ struct TermTable {
 /// Computes statistics from the means of the terms.
 using Statistics = std::function<void(std::span<const double> means, std::span<double> values)>;
 
-/// Largest probability, at this level, of an effect that none of `rows` rows has shown; 0 if five or
-/// more have shown it.
+/// Probability that an effect may have, at this level, in addition to the `shown` of `rows` rows that
+/// show it; 0 if these are five or more.
 double unseen_chance(std::size_t rows, std::size_t shown, double level);
-
-/// Number of changes that show how large an input's changes are.
-inline constexpr std::size_t usual_changes = 20;
 
 /// Returns the first `count` statistics, computed from all rows, with their bootstrap intervals.
 std::vector<Index> bootstrapped(const TermTable& table, std::size_t count,
@@ -214,7 +211,7 @@ struct Centred {
     [[nodiscard]] double variance() const;
 };
 
-/// A variance, or NaN if float64 does not hold it: it is infinite, or has too few digits.
+/// The variance, or NaN if it is too large or too small for float64.
 double held(double variance);
 
 /// Whether numbers differ at most by rounding, so that there is no variance to explain.
@@ -230,8 +227,6 @@ std::vector<double> picked(std::span<const double> y, std::span<const std::size_
 std::vector<std::size_t> complete_groups(const Response& response, std::size_t group,
                                          const char* what);
 
-/// Smallest number of runs for intervals of the methods for any design.
-inline constexpr std::size_t least_for_intervals = 20;
 /// Outputs of the given groups of `group` runs, one after another.
 std::vector<double> joined(std::span<const double> y, std::size_t group,
                            std::span<const std::size_t> groups);
@@ -239,10 +234,12 @@ std::vector<double> joined(std::span<const double> y, std::size_t group,
 /// Whether half of the outputs or more are equal.
 bool mostly_equal(std::vector<double> y);
 
+/// Smallest number of runs for intervals of the methods for any design.
+inline constexpr std::size_t least_for_intervals = 20;
 std::string too_few_for_intervals(std::size_t count, std::size_t least, const char* of_what);
 
-/// Reason why bootstrapped() gives no intervals for `rows` rows, such as "base rows"; empty if it
-/// gives some.
+/// Reason why bootstrapped() gives no intervals; empty if it gives some, or none are requested.
+/// @param of_what name of the rows in the message, such as "base rows"
 std::string no_bootstrap(std::size_t rows, const char* of_what, const Setting& setting);
 
 /// Student's quantile for a two-sided interval of this level.

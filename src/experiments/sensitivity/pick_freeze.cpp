@@ -179,6 +179,7 @@ void allow_for_unseen(std::vector<Index>& found, const TermTable& table, std::sp
         found[t].high += room;
         if (t < 2 + k || t >= 2 + 2 * k) found[t].low -= room;  // a total index only grows
     };
+    constexpr std::size_t usual_changes = 20;  // enough to show how large an input's changes are
     const double any = std::ranges::max(half_steps);
     std::size_t pair = 2 + 2 * k;
     for (std::size_t i = 0; i < k; ++i) {

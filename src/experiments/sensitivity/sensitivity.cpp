@@ -360,8 +360,7 @@ std::vector<ResultKey> result_keys() {
         {"OUTPUT.mean", "mean of the output; absent for morris"},
         {"OUTPUT.variance",
          "variance of the output, of which the indices are fractions; absent for morris, and if it "
-         "is "
-         "beyond float64"},
+         "is beyond float64"},
         {"OUTPUT.q2",
          "for chaos: fraction of the variance that polynomials predict in runs not used to fit "
          "them (five-fold cross-validation); 0 or less if they predict nothing",
