@@ -127,7 +127,7 @@ class LazySearch {
         best_ = -1;
         all_ = std::max(1.0, std::floor(factor_ * static_cast<double>(points_.count())));
         // Larger cells are halved: open ones are to be as small as the region of better candidates.
-        // Few candidates need no cells that are smaller still.
+        // For few candidates, this size would be far too small.
         constexpr double fine = 64;
         open_size_ = std::clamp(fine * factor_ * nth_root(all_, D + 1) / all_, 0x1p-14, 0.25);
         while (!heap_.empty() && all_ * open_share_ < eager) pull();
@@ -389,12 +389,15 @@ class LazySearch {
     void try_candidate(const Open& open, PointDraws& draws) {
         Point place;  // candidate, relative to the cell's corner
         Point p;
-        for (std::size_t k = 0; k < D; ++k) do {
+        for (std::size_t k = 0; k < D; ++k) {
+            const double high = space_.box.high[k];
+            do {
                 place[k] = draws.next() * sides_[open.depth][k];
                 p[k] = open.low[k] + place[k];
-            } while (p[k] >= space_.box.high[k] && open.low[k] < space_.box.high[k]);
-        for (std::size_t k = 0; k < D; ++k)  // the cell's corner may be rounded up to the face
-            p[k] = std::min(p[k], std::nextafter(space_.box.high[k], space_.box.low[k]));
+            } while (p[k] >= high && open.low[k] < high);
+            // The cell's corner may be rounded up to the face.
+            if (p[k] >= high) p[k] = std::nextafter(high, space_.box.low[k]);
+        }
         for (std::size_t i = 0; i < open.size && best_ > 0; ++i) {
             double squared = 0;
             for (std::size_t k = 0; k < D; ++k)

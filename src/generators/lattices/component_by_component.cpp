@@ -35,7 +35,6 @@ namespace stipple {
 namespace {
 
 constexpr double two_pi_squared = 2 * std::numbers::pi * std::numbers::pi;
-/// pi^2 / 3.
 constexpr DoubleDouble pi_squared_third{0x1.a51a6625307d3p+1, 0x1.1873d8912200cp-54};
 constexpr std::size_t rows_at_once = 1024;
 
@@ -45,6 +44,7 @@ struct Omega {
     double inverse = 1 / n;
     double scale = two_pi_squared / (n * n);
 
+    /// The product i z modulo n.
     [[nodiscard]] double remainder(double product) const {
         double r = product - std::floor(product * inverse) * n;
         r = r < 0 ? r + n : r;
@@ -56,7 +56,7 @@ struct Omega {
     }
 };
 
-/// Multiplies each p[j] by 1 + t, t = weight omega((first + j) z / n), and adds one t to it.
+/// Replaces each p[j] by p[j] (1 + t) + one t, with t = weight omega((first + j) z / n).
 STIPPLE_WIDE void multiply(const Omega& omega, std::uint64_t first, std::size_t count, double z,
                            double weight, double one, double* p) {
     const auto begin = static_cast<double>(first);
@@ -67,7 +67,7 @@ STIPPLE_WIDE void multiply(const Omega& omega, std::uint64_t first, std::size_t 
     }
 }
 
-/// Sets high + low to scale times n^2 omega((first + j) z / n) 3 / pi^2, which are whole numbers.
+/// Sets high + low to scale times the integers n^2 omega((first + j) z / n) 3 / pi^2.
 STIPPLE_WIDE void whole_terms(const Omega& omega, std::uint64_t first, std::size_t count, double z,
                               DoubleDouble scale, double* high, double* low) {
     const auto begin = static_cast<double>(first);
@@ -234,7 +234,7 @@ class Construction {
                      weight, products_.one(), &p[i]);
         p[0] = 0;  // left out: the origin adds the same to E for all vectors
         products_.keep_in_range();
-        p[0] = 0;
+        p[0] = 0;  // keep_in_range() may have added one()
     }
 
     [[nodiscard]] std::uint64_t next(std::span<const std::uint64_t> vector) {
@@ -288,7 +288,7 @@ DoubleDouble excess(std::uint64_t n, std::span<const std::uint64_t> vector,
         });
 }
 
-/// Points i and n - i have the same factors.
+/// excess() of all points except the origin; points i and n - i have the same factors.
 DoubleDouble excess_beyond_origin(std::uint64_t n, std::span<const std::uint64_t> vector,
                                   std::span<const double> weights) {
     const DoubleDouble half = excess(n, vector, weights, 1, (n + 1) / 2);
@@ -296,7 +296,7 @@ DoubleDouble excess_beyond_origin(std::uint64_t n, std::span<const std::uint64_t
     return n % 2 == 1 ? both : both + excess(n, vector, weights, n / 2, n / 2 + 1);
 }
 
-/// A multiplier with e^2 n by plain sums, and the largest possible error of that.
+/// A multiplier with e^2 n, computed in doubles, and a bound on its rounding error.
 struct Tried {
     std::uint64_t multiplier;
     double error;
@@ -329,7 +329,7 @@ class Multipliers {
         return result;
     }
 
-    /// Sums without the origin, which adds the same to all, decide where plain ones cannot.
+    /// If rounding hides the difference, compares sums without the origin in twice the precision.
     bool is_better(Tried& one, Tried& other) const {
         if (std::abs(one.error - other.error) > std::max(one.rounding, other.rounding))
             return one.error < other.error;

@@ -29,15 +29,13 @@ STIPPLE_WIDE void grow(const double* t_high, const double* t_low, std::size_t co
 }  // namespace
 
 DoubleDouble sum_of_excess(std::uint64_t first, std::uint64_t last, std::size_t dimension,
-                           const std::function<void(std::size_t, std::uint64_t, std::span<double>,
-                                                    std::span<double>)>& terms) {
+                           const LatticeTerms& terms) {
     constexpr std::size_t at_once = 1024;
     std::array<std::array<double, at_once>, 4> rows;
     DoubleDouble sum;
     for (; first < last; first += at_once) {
         const std::size_t count = std::min<std::uint64_t>(at_once, last - first);
-        rows[0].fill(0);
-        rows[1].fill(0);
+        rows[0] = rows[1] = {};
         for (std::size_t k = 0; k < dimension; ++k) {
             terms(k, first, std::span(rows[2]).first(count), std::span(rows[3]).first(count));
             grow(rows[2].data(), rows[3].data(), count, rows[0].data(), rows[1].data());
@@ -90,7 +88,7 @@ void Products::keep_in_range() {
         largest += one_;
         one_ = 0;
     }
-    const int exponent = std::max(std::ilogb(largest), -1000);
+    const int exponent = std::max(std::ilogb(largest), std::ilogb(std::max(one_, 1.0)) - 1000);
     if (largest == 0 || std::abs(exponent) < 64) return;
     for (double& p : p_) p = std::ldexp(p, -exponent);
     one_ = std::ldexp(one_, -exponent);

@@ -63,7 +63,7 @@ class Products {
     [[nodiscard]] std::span<double> all() { return p_; }
     [[nodiscard]] std::span<const double> all() const { return p_; }
 
-    /// A factor 1 + t makes all()[i] all()[i] (1 + t) + one() t.
+    /// To multiply product i by 1 + t, replace all()[i] by all()[i] (1 + t) + one() t.
     [[nodiscard]] double one() const { return one_; }
 
     /// Divides the products by a power of two before they overflow or underflow.
@@ -80,12 +80,14 @@ class Products {
     double one_ = 1;  ///< what was subtracted from the products
 };
 
+/// terms(k, i, high, low) sets high + low to the t_k of points i, i + 1, ...
+using LatticeTerms =
+    std::function<void(std::size_t, std::uint64_t, std::span<double>, std::span<double>)>;
+
 /// Sum over points first, ..., last - 1 of prod_k (1 + t_k) - 1, in twice the precision of a double,
 /// since the terms of good lattices cancel to a part of about n^-2.
-/// @param terms(k, i, high, low) sets high + low to the t_k of points i, i + 1, ...
 DoubleDouble sum_of_excess(std::uint64_t first, std::uint64_t last, std::size_t dimension,
-                           const std::function<void(std::size_t, std::uint64_t, std::span<double>,
-                                                    std::span<double>)>& terms);
+                           const LatticeTerms& terms);
 
 /// First of the components that are best up to rounding.
 /// @param end number of candidates, 0 to end - 1

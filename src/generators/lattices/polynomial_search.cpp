@@ -56,10 +56,10 @@ class Search {
 
     void multiply_by(std::uint64_t q, double weight) {
         const double* kernel = kernel_from(q);
-        const std::span<double> p = products_.all();
-        for (std::size_t a = 0; a < units_.size(); ++a) {
-            const double t = weight * kernel[a];
-            p[a] = p[a] * (1 + t) + products_.one() * t;
+        const double one = products_.one();
+        for (double& p : products_.all()) {
+            const double t = weight * *kernel++;
+            p = p * (1 + t) + one * t;
         }
         products_.keep_in_range();
     }

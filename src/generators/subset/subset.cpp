@@ -285,7 +285,7 @@ Found found_of(const Task& task, const std::vector<Rows>& sets, const RunContext
         const auto [squared, error, expected] = kernels::squared_from_mean(
             *task.kernel, columns_of(task.columns, rows, run), silent(run));
         const double off = error > 1e-3 * squared ? error : 0;
-        values.push_back({off > 0 ? std::max(squared - off, 0.0) : squared, squared + off});
+        values.push_back({std::max(squared - off, 0.0), squared + off});
     }
     const std::string name = task.star ? "star_discrepancy" : "squared";
     const double lower = std::ranges::max(values, {}, &StarBounds::lower).lower;

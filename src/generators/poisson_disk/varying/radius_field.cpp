@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "math/functions/powers.hpp"
 
 namespace stipple::poisson_disk {
 namespace {
@@ -140,7 +141,7 @@ void RadiusField::join(const Box& box, const RunContext& run) {
 }
 
 void RadiusField::measure() {
-    unit_ = std::ldexp(1.0, std::ilogb(least()));
+    unit_ = unit_for(least());
     const auto [width, height] = levels_[0].count;
     for (std::size_t j = 0; j < height; ++j) {
         double row = 0;
