@@ -194,14 +194,13 @@ Integrand discontinuous(Draw g) {
 IntegrandKind family(const std::string& name, std::string summary, std::uint64_t number, double sum,
                      std::size_t max_dimension, Integrand (*make)(Draw)) {
     const Param<double> steep = difficulty(sum);
-    const std::string full = "genz-" + name;
-    return {.name = full,
+    return {.name = name,
             .summary = std::move(summary),
             .max_dimension = max_dimension,
             .options = Schema(peak_seed, steep),
             .make = [=](std::size_t d, const Values& values) {
                 Integrand made = make(draw(d, values[peak_seed], number, values[steep]));
-                if (number > 0) require_normal(made.exact, full, d);  // a cosine's may be near 0
+                if (number > 0) require_normal(made.exact, name, d);  // a cosine's may be near 0
                 return made;
             }};
 }
@@ -210,12 +209,12 @@ IntegrandKind family(const std::string& name, std::string summary, std::uint64_t
 
 std::vector<IntegrandKind> genz_integrands() {
     return {
-        family("oscillatory", "cosine of a sum", 0, 9, 10'000, oscillatory),
-        family("product-peak", "a product of a peak on each axis", 1, 7.25, 100, product_peak),
-        family("corner-peak", "a peak at the origin", 2, 1.85, 100, corner_peak),
-        family("gaussian", "a Gaussian peak", 3, 7.03, 10'000, gaussian),
-        family("continuous", "a peak with kinks", 4, 20.4, 10'000, continuous),
-        family("discontinuous", "an exponential, cut off on two axes", 5, 4.3, 10'000,
+        family("genz-oscillatory", "cosine of a sum", 0, 9, 10'000, oscillatory),
+        family("genz-product-peak", "a product of a peak on each axis", 1, 7.25, 100, product_peak),
+        family("genz-corner-peak", "a peak at the origin", 2, 1.85, 100, corner_peak),
+        family("genz-gaussian", "a Gaussian peak", 3, 7.03, 10'000, gaussian),
+        family("genz-continuous", "a peak with kinks", 4, 20.4, 10'000, continuous),
+        family("genz-discontinuous", "an exponential, cut off on two axes", 5, 4.3, 10'000,
                discontinuous),
     };
 }
