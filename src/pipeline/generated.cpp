@@ -246,7 +246,7 @@ void require_box(const Box& box) {
     for (std::size_t k = 0; good && k < d; ++k)
         good = box.low[k] < box.high[k] && std::isfinite(box.extent(k));
     if (!good) fail(ErrorKind::usage, "--bounds: expected finite low < high for each coordinate");
-    for (std::size_t k = 0; k < d; ++k) require_wide("--bounds", box.low[k], box.high[k]);
+    for (std::size_t k = 0; k < d; ++k) require_wide("--", "bounds", box.low[k], box.high[k]);
 }
 
 /// Completes a job: adds the settings that follow from named parameters, and expands the bounds to

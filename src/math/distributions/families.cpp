@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "math/distributions/families.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -20,14 +18,14 @@ void require_below(const ParameterValues& p, std::string_view low, std::string_v
     if (!(p[low] < p[high]))
         fail(ErrorKind::usage, "{}{}: {} is not below {}{}, {}", p.where, low, p[low], p.where,
              high, p[high]);
-    require_wide(fmt::format("{}{}", p.where, low), p[low], p[high]);
+    require_wide(p.where, low, p[low], p[high]);
 }
 
 bool is_resolved(double scale, double place) { return scale > 0x1p-46 * std::abs(place); }
 
 /// Scale of a distribution, checked against its location.
 double resolved(const ParameterValues& p, std::string_view scale, std::string_view location) {
-    require_resolved(fmt::format("{}{}", p.where, location), p[location], scale, p[scale]);
+    require_resolved(p.where, location, p[location], scale, p[scale]);
     return p[scale];
 }
 
@@ -198,17 +196,18 @@ const MarginalFamily& marginal_family(std::string_view name) {
                    shown(name));
 }
 
-void require_resolved(std::string_view where, double place, std::string_view what, double scale) {
+void require_resolved(std::string_view where, std::string_view name, double place,
+                      std::string_view what, double scale) {
     if (!is_resolved(scale, place))
-        fail(ErrorKind::usage, "{}: {} is so far from 0 that a {} of {} is lost in rounding", where,
-             place, what, scale);
+        fail(ErrorKind::usage, "{}{}: {} is so far from 0 that a {} of {} is lost in rounding",
+             where, name, place, what, scale);
 }
 
-void require_wide(std::string_view where, double low, double high) {
+void require_wide(std::string_view where, std::string_view name, double low, double high) {
     if (!(high - low >= 1e-300 && is_resolved(high - low, std::max(std::abs(low), std::abs(high)))))
         fail(ErrorKind::usage,
-             "{}: the range from {} to {} is so narrow that it is lost in rounding", where, low,
-             high);
+             "{}{}: the range from {} to {} is so narrow that it is lost in rounding", where, name,
+             low, high);
 }
 
 MarginalPtr make_marginal(std::string_view name, const NamedNumbers& given,

@@ -28,12 +28,13 @@ struct MarginalParameter {
     bool whole = false;  ///< true if only integers are allowed
 };
 
-/// @throws Error(usage) that begins with `where` and names the scale by `what`, if fewer than about 64
-/// doubles near `place` are within one scale: points would be rounded to few numbers
-void require_resolved(std::string_view where, double place, std::string_view what, double scale);
+/// @throws Error(usage) that begins with `where` and `name`, and names the scale by `what`, if fewer
+/// than about 64 doubles near `place` are within one scale: points would be rounded to few numbers
+void require_resolved(std::string_view where, std::string_view name, double place,
+                      std::string_view what, double scale);
 
 /// The same for a range of points, which must also have a width of 1e-300 or more.
-void require_wide(std::string_view where, double low, double high);
+void require_wide(std::string_view where, std::string_view name, double low, double high);
 
 using NamedNumbers = std::vector<std::pair<std::string, double>>;
 

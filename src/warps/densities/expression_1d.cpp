@@ -53,7 +53,7 @@ LineRange range_of(const Values& options) {
     const auto ends = options[range];
     if (ends.size() != 2 || !(ends[0] < ends[1]) || !std::isfinite(ends[1] - ends[0]))
         fail(ErrorKind::usage, "--range: '{}' is not a,b with a < b", format_value(ends));
-    require_wide("--range", ends[0], ends[1]);
+    require_wide("--", "range", ends[0], ends[1]);
     LineRange out{ends[0], ends[1], options[breaks]};
     std::ranges::sort(out.breaks);
     out.breaks.erase(std::unique(out.breaks.begin(), out.breaks.end()), out.breaks.end());

@@ -77,7 +77,7 @@ FormulaBox::FormulaBox(std::string spec, Expression f, Box box)
       box_(std::move(box)),
       place_(box_domain(box_)) {
     for (std::size_t k = 0; k < dimension(); ++k)
-        require_wide("--bounds", box_.low[k], box_.high[k]);
+        require_wide("--", "bounds", box_.low[k], box_.high[k]);
 }
 
 Estimate FormulaBox::integral() const {

@@ -261,7 +261,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
                 .factor = correlated ? factor_of(matrix, d) : deviations_of(want.options, d)};
     for (double& m : shape.mean) m += 0.0;  // + 0.0 avoids -0 in the points
     for (std::size_t k = 0; k < d; ++k)
-        require_resolved("--mean", shape.mean[k], "deviation", shape.reach(k));
+        require_resolved("--", "mean", shape.mean[k], "deviation", shape.reach(k));
     return domain_mapping<NormalDomain>(std::move(shape), want.spec());
 }
 
