@@ -21,8 +21,6 @@ void require_below(const ParameterValues& p, std::string_view low, std::string_v
     require_wide(p.where, low, p[low], p[high]);
 }
 
-bool is_resolved(double scale, double place) { return scale > 0x1p-46 * std::abs(place); }
-
 /// Scale of a distribution, checked against its location.
 double resolved(const ParameterValues& p, std::string_view scale, std::string_view location) {
     require_resolved(p.where, location, p[location], scale, p[scale]);
@@ -195,6 +193,8 @@ const MarginalFamily& marginal_family(std::string_view name) {
     fail_with_hint(ErrorKind::usage, suggest(name, known), "there is no distribution {}",
                    shown(name));
 }
+
+bool is_resolved(double scale, double place) { return scale > 0x1p-46 * std::abs(place); }
 
 void require_resolved(std::string_view where, std::string_view name, double place,
                       std::string_view what, double scale) {

@@ -28,8 +28,11 @@ struct MarginalParameter {
     bool whole = false;  ///< true if only integers are allowed
 };
 
-/// @throws Error(usage) that begins with `where` and `name`, and names the scale by `what`, if fewer
-/// than about 64 doubles near `place` are within one scale: points would be rounded to few numbers
+/// True if 64 or more doubles near `place` are within one `scale`: points of a narrower distribution
+/// would be rounded to few numbers.
+bool is_resolved(double scale, double place);
+
+/// @throws Error(usage) that begins with `where` and `name`, unless is_resolved()
 void require_resolved(std::string_view where, std::string_view name, double place,
                       std::string_view what, double scale);
 

@@ -23,6 +23,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "math/distributions/families.hpp"
 #include "warps/common_options.hpp"
 #include "warps/line_domain.hpp"
 
@@ -86,9 +87,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
         const double c = centers[k] + 0.0;  // + 0.0 avoids -0 in the points
         if (!(r >= 1e-150 && r <= 1e150))
             fail(ErrorKind::usage, "--radius: {} is outside [1e-150, 1e+150]", r);
-        if (!(r > 64 * epsilon * std::abs(c)))
-            fail(ErrorKind::usage,
-                 "--center: {} is so far from 0 that a radius of {} is lost in rounding", c, r);
+        require_resolved("--", "center", c, "radius", r);
         axes.push_back(std::make_shared<Tent>(r, c));
     }
     return line_mapping(std::move(axes), want.given, want.spec(),

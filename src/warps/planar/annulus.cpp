@@ -33,7 +33,7 @@ constexpr auto radius = length_option("radius", 1, "Outer radius, above 0");
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const auto ring = RingSector::between(want.options[inner], want.options[radius], 1);
     const double width = want.options[radius] - want.options[inner];
-    const auto at = place(want.options[shape_center], want.options[radius], 0, width, "a ring");
+    const auto at = place(want.options[shape_center], want.options[radius], 0, width, "ring");
     return placed(want.spec(), ring, at);
 }
 

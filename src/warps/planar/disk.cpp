@@ -81,7 +81,7 @@ struct ByNaive : PlacedMethod<Naive> {
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     constexpr double any = std::numeric_limits<double>::infinity();
     for (const double x : want.options[shape_center]) refuse_far(x, want.options[radius]);
-    const auto at = place(want.options[shape_center], want.options[radius], 0, any, "a radius");
+    const auto at = place(want.options[shape_center], want.options[radius], 0, any, "radius");
     const auto disk = std::make_shared<PlacedDomain<RingSector>>(
         want.spec({radius.name, shape_center.name}), RingSector{}, at);
     const std::string how = want.options[method];

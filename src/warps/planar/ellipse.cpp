@@ -94,10 +94,10 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
         if (!(x >= 1e-150 && x <= 1e150))
             fail(ErrorKind::usage, "--axes: {} is outside [1e-150, 1e150]", x);
     const double longer = std::max(a, b);
-    if (!(std::min(a, b) > lost_in_rounding * longer))
+    if (!is_resolved(std::min(a, b), longer))
         fail(ErrorKind::usage, "--axes: {} is lost in rounding beside {}", std::min(a, b), longer);
     const auto at = place(want.options[shape_center], longer, want.options[rotation],
-                          std::min(a, b), "a semi-axis");
+                          std::min(a, b), "semi-axis");
     const Ellipse<PolarDisk> polar{a / longer, b / longer};
     auto domain = std::make_shared<PlacedDomain<Ellipse<PolarDisk>>>(
         want.spec({axes.name, rotation.name, shape_center.name}), polar, at);

@@ -19,11 +19,7 @@ Placement place(const std::vector<double>& center, double size, double degrees, 
                 std::string_view what) {
     if (center.size() != 2)
         fail(ErrorKind::usage, "--center: expected 2 numbers, x,y; {} given", center.size());
-    for (const double x : center)
-        if (!(finest > lost_in_rounding * std::abs(x)))
-            fail(ErrorKind::usage,
-                 "--center: {} is so far from 0 that {} of {} is lost in rounding", x, what,
-                 finest);
+    for (const double x : center) require_resolved("--", "center", x, what, finest);
     const double turn = turn_of_degrees(degrees);
     const auto [c, s] = cos_sin_turns(turn);
     return {.center = {center[0] + 0.0, center[1] + 0.0},  // + 0.0 avoids -0 in the points

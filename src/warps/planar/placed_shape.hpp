@@ -31,6 +31,7 @@
 #include <vector>
 
 #include "core/options.hpp"
+#include "math/distributions/families.hpp"
 #include "math/functions/trigonometry.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "math/geometry/vector3.hpp"
@@ -49,11 +50,8 @@ constexpr Param<double> rotation_option(std::string_view help) {
     return {.name = "rotation", .low = -360, .high = 360, .unit = "degrees", .help = help};
 }
 
-/// Lengths below this fraction of a shape's coordinates are lost in rounding.
-inline constexpr double lost_in_rounding = 64 * std::numeric_limits<double>::epsilon();
-
 /// Places a shape of size R at `center`, rotated by `degrees`. @throws Error(usage) if rounding
-/// would lose `finest`, the shape's smallest length, called `what` in the message ("a radius")
+/// would lose `finest`, the shape's smallest length, called `what` in the message ("radius")
 Placement place(const std::vector<double>& center, double size, double degrees, double finest,
                 std::string_view what);
 

@@ -115,7 +115,7 @@ class RegularPolygon {
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const RegularPolygon polygon(static_cast<std::size_t>(want.options[sides]));
     const auto at = place(want.options[shape_center], want.options[radius], want.options[rotation],
-                          want.options[radius], "a radius");
+                          want.options[radius], "radius");
     return placed(want.spec(), polygon, at);
 }
 

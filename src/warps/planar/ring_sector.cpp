@@ -19,7 +19,7 @@ double beyond_side(double x, double y) { return x > 0 ? std::abs(y) : std::sqrt(
 }  // namespace
 
 RingSector RingSector::between(double inner, double outer, double width) {
-    if (!(outer - inner > lost_in_rounding * outer))
+    if (!is_resolved(outer - inner, outer))
         fail(ErrorKind::usage, "--inner: {} is not below --radius {}, or too close to it", inner,
              outer);
     const double q = inner / outer;

@@ -64,8 +64,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const auto [first, angle] = span_of(want.options[angles]);
     const double width = want.options[radius] - want.options[inner];
     const auto shape = RingSector::between(want.options[inner], want.options[radius], angle / 360);
-    const auto at =
-        place(want.options[shape_center], want.options[radius], first, width, "a sector");
+    const auto at = place(want.options[shape_center], want.options[radius], first, width, "sector");
     return placed(want.spec(), shape, at);
 }
 
