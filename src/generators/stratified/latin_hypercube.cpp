@@ -437,7 +437,7 @@ std::unique_ptr<Sequence> make_design(const Plan& plan, const Values& options,
                         .seed = plan.seed};
     if (!options.given(optimize)) return points_of(places, std::move(task.start), given);
     const std::vector<double> parts = options[levels];
-    for (std::size_t k = 0; k < parts.size(); ++k)  // strata that an edge of levels cuts
+    for (std::size_t k = 0; k < parts.size(); ++k)  // where edges of levels cut strata
         if (parts[k] > 0 && plan.count % static_cast<std::uint64_t>(parts[k]) != 0)
             places->put_in_middles(k);
     for (std::size_t i = 0; i < given.count() && plan.destination; ++i)

@@ -88,7 +88,7 @@ class RadiusField {
     /// f at a position that is known to be in the node.
     [[nodiscard]] double within(const Node& node, double x, double y) const;
 
-    /// A power of two near the minimum of f: 1 / f^2 itself may overflow.
+    /// A power of two near the minimum of f, used as a unit because 1 / f^2 may overflow.
     [[nodiscard]] double unit() const { return unit_; }
 
     /// Integral of (unit / f)^2 over the rectangle.
