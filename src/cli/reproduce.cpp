@@ -219,7 +219,7 @@ Arguments arguments_of(const Provenance& meta, const std::string& name, const Ru
     typed.common = {{"count", std::to_string(meta.count)}, {"seed", std::to_string(meta.seed)}};
     if (meta.start > 0) typed.common.emplace_back("start", std::to_string(meta.start));
     const auto later = std::ranges::find_if(meta.warps, [](const std::string& step) {
-        return step.starts_with(inverse_of) || is_cut(step);
+        return step.starts_with(inverse_of) || io::is_cut(step);
     });
     std::for_each(meta.warps.begin(), later,
                   [&](const std::string& warp) { typed.common.emplace_back("warp", warp); });
@@ -330,7 +330,7 @@ std::uint64_t stream_version_of(const std::string& name) {
 std::string changed_rules(const Provenance& meta) {
     std::vector<std::string> units = {find_generator(meta.generator).name};
     for (std::string warp : meta.warps) {
-        if (is_cut(warp)) continue;
+        if (io::is_cut(warp)) continue;
         if (warp.starts_with("inverse ")) warp.erase(0, 8);
         units.push_back(parse_spec(warp).name);
     }

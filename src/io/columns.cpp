@@ -9,7 +9,6 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/decimal.hpp"
-#include "io/provenance.hpp"
 
 namespace stipple::io {
 namespace {
@@ -216,39 +215,6 @@ void take_densities(PointSet& set) {
     points.domain = std::move(set.domain);
     points.provenance = std::move(set.provenance);
     set = std::move(points);
-}
-
-namespace {
-
-/// Whether --column picks all coordinates that the provenance describes, in order.
-bool picks_all(const Columns& columns, const ReadOptions& options, const Provenance& made) {
-    const std::size_t first = columns.has(Columns::set_number) ? 1 : 0;
-    bool all =
-        options.columns.size() == made.dimension && first + made.dimension <= columns.width();
-    for (std::size_t k = 0; all && k < made.dimension; ++k) all = columns.role[first + k] == k;
-    return all;
-}
-
-}  // namespace
-
-void tell_columns(Provenance& provenance, const Columns& columns, const ReadOptions& options) {
-    if (!options.columns.empty() && !picks_all(columns, options, provenance)) {
-        Provenance whole = std::exchange(provenance, {});
-        provenance.count = whole.count;
-        provenance.levels = whole.levels;
-        provenance.precision = whole.precision;
-        provenance.single = whole.single;
-        // The rest is equal for sets that differ only in their seeds, which are averaged.
-        whole.seed = provenance.seed;
-        if (whole.command.find(" --count ") == std::string::npos) whole.count = 0;
-        whole.command.clear();
-        whole.found.clear();
-        if (!whole.generator.empty())
-            provenance.flaw =
-                "--column picked coordinates of points with\n" + to_comment_lines(whole);
-    }
-    provenance.density_column = columns.density;
-    provenance.columns = kept_names(columns.names);
 }
 
 std::vector<double> keep_coordinates(std::vector<double> table, const Columns& columns) {

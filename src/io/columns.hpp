@@ -78,10 +78,6 @@ DensityColumns density_columns(const Provenance& provenance);
 /// set.densities. @throws Error(input) naming the first point with an invalid value
 void take_densities(PointSet& set);
 
-/// Stores names and density column of the chosen columns in the provenance of a file. Drops the
-/// recipe, which `flaw` then describes, if --column picks other coordinates or another order.
-void tell_columns(Provenance& provenance, const Columns& columns, const ReadOptions& options);
-
 /// Drops the columns of a table that are not coordinates.
 std::vector<double> keep_coordinates(std::vector<double> table, const Columns& columns);
 

@@ -13,6 +13,7 @@
 #include "io/carried_meta.hpp"
 #include "io/columns.hpp"
 #include "io/files.hpp"
+#include "io/provenance.hpp"
 #include "io/source_text.hpp"
 
 namespace stipple::io {
@@ -445,7 +446,7 @@ std::vector<PointSet> PointStream::read_all(const RunContext& run) {
         }
         sets.emplace_back(std::move(rows), d);
     }
-    tell_origin(sets, provenance(), set_numbers());
+    tell_origin(sets, provenance());
     return sets;
 }
 

@@ -44,11 +44,8 @@ class PointStream {
     /// Number of points in this set, if known in advance.
     [[nodiscard]] virtual std::optional<std::uint64_t> count() const { return std::nullopt; }
 
-    /// Provenance of the first set; of the set numbered 0, if set_numbers() is not empty.
+    /// Provenance of the first set; of the set numbered 0, if the file numbers its sets.
     [[nodiscard]] virtual const Provenance& provenance() const = 0;
-
-    /// Numbers of the sets read so far; empty: 0, 1, 2, ...
-    [[nodiscard]] virtual std::vector<std::uint64_t> set_numbers() const { return {}; }
 
     /// Whether all points are already in memory.
     [[nodiscard]] virtual bool held() const { return false; }

@@ -209,4 +209,54 @@ void note_count(const std::string& source, const Provenance& stated, std::uint64
                            source_name(source), found, stated.count));
 }
 
+namespace {
+
+/// Whether --column picks all coordinates that the provenance describes, in order.
+bool picks_all(const Columns& columns, const ReadOptions& options, const Provenance& made) {
+    const std::size_t first = columns.has(Columns::set_number) ? 1 : 0;
+    bool all =
+        options.columns.size() == made.dimension && first + made.dimension <= columns.width();
+    for (std::size_t k = 0; all && k < made.dimension; ++k) all = columns.role[first + k] == k;
+    return all;
+}
+
+}  // namespace
+
+void tell_columns(Provenance& provenance, const Columns& columns, const ReadOptions& options) {
+    if (!options.columns.empty() && !picks_all(columns, options, provenance)) {
+        Provenance whole = std::exchange(provenance, {});
+        provenance.count = whole.count;
+        provenance.levels = whole.levels;
+        provenance.precision = whole.precision;
+        provenance.single = whole.single;
+        // The rest is equal for sets that differ only in their seeds, which are averaged.
+        whole.seed = provenance.seed;
+        if (whole.command.find(" --count ") == std::string::npos) whole.count = 0;
+        whole.command.clear();
+        whole.found.clear();
+        if (!whole.generator.empty())
+            provenance.flaw =
+                "--column picked coordinates of points with\n" + to_comment_lines(whole);
+    }
+    provenance.density_column = columns.density;
+    provenance.columns = kept_names(columns.names);
+}
+
+void record_cuts(Provenance& meta) {
+    if (meta.single) meta.warps.emplace_back(cut_to_single);
+    if (meta.precision) meta.warps.push_back(fmt::format("{}{}", cut_to_digits, *meta.precision));
+    meta.single = false;
+    meta.precision.reset();
+}
+
+Provenance without_making(const Provenance& meta) {
+    Provenance known;
+    known.columns = meta.columns;
+    known.levels = meta.levels;
+    known.count = meta.count;
+    known.dimension = meta.dimension;
+    known.domain = meta.domain;
+    return known;
+}
+
 }  // namespace stipple::io

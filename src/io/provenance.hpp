@@ -11,7 +11,13 @@
 #include "core/point_set.hpp"
 #include "stipple/run.hpp"
 
+namespace stipple {
+struct ReadOptions;
+}
+
 namespace stipple::io {
+
+struct Columns;
 
 /// Always has the keys tool, version, generator, options, seed, count, dimension, start, warps,
 /// domain and command; seed, start and domain are null if unknown. Has columns, levels, bounds and
@@ -33,5 +39,24 @@ bool take_comment_line(std::string_view line, Provenance& provenance);
 /// may have been cut off, but also edited, so this is no error.
 void note_count(const std::string& source, const Provenance& stated, std::uint64_t found,
                 const RunContext& run);
+
+/// Stores names and density column of the chosen columns in the provenance of a file. Drops the
+/// recipe, which `flaw` then describes, if --column picks other coordinates or another order.
+void tell_columns(Provenance& provenance, const Columns& columns, const ReadOptions& options);
+
+/// Entries in a provenance's list of warps for numbers that were truncated when written.
+inline constexpr std::string_view cut_to_single = "cut:dtype=f32";
+inline constexpr std::string_view cut_to_digits = "cut:precision=";
+
+/// Whether a step of a provenance says that numbers were truncated.
+inline bool is_cut(std::string_view step) {
+    return step == cut_to_single || step.starts_with(cut_to_digits);
+}
+
+/// Turns the truncation of a file's numbers into a step, after which others follow.
+void record_cuts(Provenance& meta);
+
+/// A provenance without the recipe: only names, levels, size and domain of the points.
+Provenance without_making(const Provenance& meta);
 
 }  // namespace stipple::io

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/decimal.hpp"
+#include "io/provenance.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/units.hpp"
 #include "pipeline/warping.hpp"
@@ -129,10 +130,11 @@ Comparison compared(const SetStream& stream, const Target& written, io::PointStr
 /// @param have number of sets before the step; updated to the number after it
 Making after_step(Making before, const std::string& step, std::uint64_t sets, std::uint64_t& have,
                   const RunContext& run) {
-    if (is_cut(step)) {
-        Target cut{.single = step == cut_to_single};
+    if (io::is_cut(step)) {
+        Target cut{.single = step == io::cut_to_single};
         if (!cut.single) {
-            const auto digits = parse_integer(std::string_view(step).substr(cut_to_digits.size()));
+            const auto digits =
+                parse_integer(std::string_view(step).substr(io::cut_to_digits.size()));
             cut.precision = static_cast<int>(std::clamp<std::int64_t>(digits.value_or(0), 0, 1000));
         }
         return [=](const Target& target) { write_sets(collect(before, cut, run), target, run); };

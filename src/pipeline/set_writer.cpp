@@ -15,7 +15,7 @@
 #include "io/carried_meta.hpp"
 #include "io/columns.hpp"
 #include "io/output.hpp"
-#include "pipeline/warping.hpp"
+#include "io/provenance.hpp"
 
 namespace stipple {
 namespace {
@@ -103,7 +103,7 @@ Layout layout_of(SetsHead head, const SetStream& stream, const Target& target) {
     if (target.precision && !target.format->traits.binary)
         meta.precision = std::min(meta.precision.value_or(*target.precision), *target.precision);
     if (target.single && target.format->traits.binary) {
-        if (meta.precision) record_cuts(meta);  // to float32 after the digits
+        if (meta.precision) io::record_cuts(meta);  // to float32 after the digits
         meta.single = true;
     }
     return layout;

@@ -9,7 +9,7 @@
 #include "core/bytes/spool.hpp"
 #include "core/parallel.hpp"
 #include "io/columns.hpp"
-#include "pipeline/warping.hpp"
+#include "io/provenance.hpp"
 
 namespace stipple {
 namespace {
@@ -30,7 +30,7 @@ void keep_common(Provenance& common, const Provenance& other, std::uint64_t plac
     if (other.generator != common.generator || other.command != common.command ||
         other.start != common.start || other.shard != common.shard ||
         (seeded && (other.seed != seed || other.warps != common.warps)))
-        common = without_making(common);
+        common = io::without_making(common);
     if (other.domain != common.domain) common.domain.clear();
 }
 

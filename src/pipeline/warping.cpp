@@ -10,6 +10,7 @@
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "io/columns.hpp"
+#include "io/provenance.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/units.hpp"
@@ -22,7 +23,7 @@ namespace {
 void record_warp(PointSet& set, const WarpChain& chain, bool inverse,
                  const std::vector<std::pair<std::string, std::string>>& inputs) {
     Provenance& meta = set.provenance;
-    record_cuts(meta);
+    io::record_cuts(meta);
     const std::string warp = std::string(inverse ? inverse_of : "") + chain.record().specs.front();
     for (const auto& input : inputs)
         if (std::ranges::find(meta.inputs, input) == meta.inputs.end())
@@ -208,25 +209,8 @@ SetStream stream_of(io::PointStream& points, const DomainPtr& on) {
 
 }  // namespace
 
-void record_cuts(Provenance& meta) {
-    if (meta.single) meta.warps.emplace_back(cut_to_single);
-    if (meta.precision) meta.warps.push_back(fmt::format("{}{}", cut_to_digits, *meta.precision));
-    meta.single = false;
-    meta.precision.reset();
-}
-
-Provenance without_making(const Provenance& meta) {
-    Provenance known;
-    known.columns = meta.columns;
-    known.levels = meta.levels;
-    known.count = meta.count;
-    known.dimension = meta.dimension;
-    known.domain = meta.domain;
-    return known;
-}
-
 std::size_t dimension_before_step(std::string_view step, std::size_t after, const RunContext& run) {
-    if (is_cut(step)) return after;
+    if (io::is_cut(step)) return after;
     const bool back = step.starts_with(inverse_of);
     const Spec spec = parse_spec(step.substr(back ? inverse_of.size() : 0));
     if (scramble_named(spec.name) != nullptr) return after;
@@ -242,7 +226,7 @@ std::vector<std::uint32_t> digit_bases(const Provenance& meta) {
     const Generator* generator = generator_named(meta.generator);
     if (generator == nullptr || !generator->bases || !meta.bounds.empty()) return {};
     const auto keeps_digits = [](const std::string& step) {
-        return is_cut(step) ||
+        return io::is_cut(step) ||
                (!step.starts_with(inverse_of) && scramble_named(parse_spec(step).name) != nullptr);
     };
     if (!std::ranges::all_of(meta.warps, keeps_digits)) return {};
@@ -311,7 +295,7 @@ void write_density_at(const Unwarped& at, const Spec& warp, Target target, const
     points.chain = chain.get();
     points.head = [head = points.head](std::size_t first, std::size_t last) {
         SetsHead known = head(first, last);
-        known.provenance = without_making(known.provenance);
+        known.provenance = io::without_making(known.provenance);
         return known;
     };
     write_sets(points, target, run);

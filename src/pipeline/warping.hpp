@@ -13,10 +13,6 @@
 
 namespace stipple {
 
-/// Entries in a provenance's list of warps for numbers that were truncated when written.
-inline constexpr std::string_view cut_to_single = "cut:dtype=f32";
-inline constexpr std::string_view cut_to_digits = "cut:precision=";
-
 /// Points to warp: either sets in memory or, if there may be too many points, a stream.
 struct Unwarped {
     std::vector<PointSet> sets = {};
@@ -30,17 +26,6 @@ struct Unwarped {
 /// and truncation have changed, according to their provenance. Empty if all bases are 2, or
 /// unknown.
 std::vector<std::uint32_t> digit_bases(const Provenance& meta);
-
-/// Turns the truncation of a file's numbers into a step, after which others follow.
-void record_cuts(Provenance& meta);
-
-/// A provenance without the recipe: only names, levels, size and domain of the points.
-Provenance without_making(const Provenance& meta);
-
-/// Whether a step of a provenance says that numbers were truncated.
-inline bool is_cut(std::string_view step) {
-    return step == cut_to_single || step.starts_with(cut_to_digits);
-}
 
 /// Numbers per row before a step of a provenance: a warp, an inverse or a truncation.
 /// @param after numbers per row of its results

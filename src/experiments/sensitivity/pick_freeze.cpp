@@ -244,7 +244,7 @@ Effects pick_freeze(const Layout& layout, const Inputs& inputs, const Response& 
     Effects effects{.used = f.z.size(),
                     .samples = complete.size(),
                     .mean = f.mean + f.unit * found[0].value,
-                    .variance = held(f.unit * f.unit * found[1].value),
+                    .variance = held(found[1].value * f.unit * f.unit),
                     .kinds = {{"first", part_of(found, 2, k)}, {"total", part_of(found, 2 + k, k)}},
                     .no_intervals = no_intervals};
     std::size_t at = 2 + 2 * k;

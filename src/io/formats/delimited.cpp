@@ -744,7 +744,11 @@ class DelimitedStream final : public PointStream {
     std::size_t dimension() const override { return columns_.dimension; }
     const Provenance& provenance() const override { return provenance_; }
 
-    std::vector<std::uint64_t> set_numbers() const override { return numbers_; }
+    std::vector<PointSet> read_all(const RunContext& run) override {
+        auto sets = PointStream::read_all(run);
+        tell_origin(sets, provenance_, numbers_);
+        return sets;
+    }
 
     /// With a header, a column holds the set numbers; without one, `#` lines separate the sets.
     bool looks_like_one_set() const override { return names_ && !numbered(); }

@@ -19,6 +19,7 @@
 #include "io/format.hpp"
 #include "io/formats/delimited.hpp"
 #include "io/formats/json_head.hpp"
+#include "io/provenance.hpp"
 
 namespace stipple::io::jsonl {
 namespace {

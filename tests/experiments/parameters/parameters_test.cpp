@@ -456,7 +456,7 @@ TEST(Parameters, SayWhatIsWrongAndWhere) {
          R"("correlation":{"pearson":[["a","b",0.95]]}})",
          "0.95 is not attainable: these two parameters have correlations in [-0.86"},
         {R"({"parameters":[{"name":"a","range":[0,1]},{"name":"b","distribution":"normal",)"
-         R"("mean":1e10,"deviation":1e-4}],"correlation":{"pearson":[["a","b",0.5]]}})",
+         R"("mean":1e10,"deviation":2e-4}],"correlation":{"pearson":[["a","b",0.5]]}})",
          "or if its values are so close to each other that float64 rounds them"},
         {R"({"parameters":[{"name":"a","values":[]}]})", "$.parameters[0].values: expected a list"},
         {R"({"parameters":[{"name":"a","values":[1,"2"]}]})",
