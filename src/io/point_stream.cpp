@@ -506,9 +506,9 @@ std::unique_ptr<PointStream> open_points(std::unique_ptr<Feed> feed, const std::
     const Format& chosen = format != nullptr ? *format : format_for(path, feed->front());
     const bool raw_size = chosen.name == "bin" && !options.dimension;  // is to be read from beside
     if (beside && !usable && raw_size)
-        fail_with_hint(
-            ErrorKind::input, "remove that file, or give --dimension, if it is of other points",
-            "{}: its first bytes differ from those that {} records", path, meta_path(path));
+        fail_with_hint(ErrorKind::input,
+                       "remove that file, or give --dimension, if it is of other points",
+                       "{}: its bytes are not those that {} records", path, meta_path(path));
     if (usable) {
         inner.beside = &*beside;
         inner.single |= beside->single;

@@ -66,10 +66,16 @@ TEST(Provenance, BesideRawNumbersStatesHowManyThereAre) {
         for (const char* verb : {"convert -f csv", "analyze moments", "plot -f svg", "report"}) {
             const Outcome outcome = box.shell(std::string("stipple ") + verb + " q.bin");
             EXPECT_EQ(outcome.code, 3) << verb;
-            EXPECT_THAT(outcome.err, HasSubstr("q.bin.meta.json states their number; remove it if "
-                                               "it is of other points"));
+            EXPECT_THAT(outcome.err,
+                        HasSubstr("q.bin: its bytes are not those that q.bin.meta.json records; "
+                                  "remove that file"));
         }
     }
+    good(box.shell(
+        "stipple generate sobol -n 60000 -d 3 --meta -o l.bin; truncate -s 1200000 l.bin"));
+    EXPECT_THAT(
+        box.shell("stipple analyze moments l.bin").err,
+        HasSubstr("l.bin.meta.json states their number; remove it if it is of other points"));
     good(
         box.shell("stipple generate random -n 20 -m 3 --dtype f32 --meta -o m.bin; "
                   "stipple generate random -n 20 -m 3 --dtype f32 -o m.npy; "
@@ -152,9 +158,8 @@ TEST(Provenance, BesideRawNumbersIsNotTakenForOthers) {
                   "stipple generate random -n 32 -o p.bin"));
     const Outcome outcome = box.run({"convert", "p.bin", "-f", "csv"});
     EXPECT_EQ(outcome.code, 3);
-    EXPECT_THAT(outcome.err,
-                HasSubstr("p.bin: its first bytes differ from those that p.bin.meta.json "
-                          "records; remove that file, or give --dimension, if"));
+    EXPECT_THAT(outcome.err, HasSubstr("p.bin: its bytes are not those that p.bin.meta.json "
+                                       "records; remove that file, or give --dimension, if"));
     EXPECT_EQ(good(box.shell("stipple convert -q p.bin -d 2 -f csv")),
               good(box.run({"generate", "random", "-n", "32"})));
 }
