@@ -72,7 +72,7 @@ TEST(Provenance, BesideRawNumbersStatesHowManyThereAre) {
         }
     }
     good(box.shell(
-        "stipple generate sobol -n 60000 -d 3 --meta -o l.bin; truncate -s 1200000 l.bin"));
+        "stipple generate sobol -n 65536 -d 3 --meta -o l.bin; truncate -s 1200000 l.bin"));
     EXPECT_THAT(
         box.shell("stipple analyze moments l.bin").err,
         HasSubstr("l.bin.meta.json states their number; remove it if it is of other points"));
