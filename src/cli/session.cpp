@@ -50,6 +50,9 @@ pthread_t main_thread;  // NOLINT: read by the signal handler
 /// Time of the first signal in milliseconds; 0 before it.
 volatile std::sig_atomic_t interrupted_at = 0;
 
+/// 1 while a signal that another thread has handled is on its way to the main thread.
+volatile std::sig_atomic_t woken = 0;
+
 std::sig_atomic_t milliseconds() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);
@@ -61,6 +64,11 @@ std::sig_atomic_t milliseconds() {
 /// program, except within 200 ms: then it is the same signal, sent to both the process and its
 /// group.
 extern "C" void on_interrupt(int signal) {
+    const bool in_main = pthread_equal(pthread_self(), main_thread) != 0;
+    if (in_main && woken != 0) {
+        woken = 0;
+        return;
+    }
     constexpr std::sig_atomic_t at_once = 200;
     if (interrupted_at == 0) {
         interrupted_at = milliseconds();
@@ -69,8 +77,9 @@ extern "C" void on_interrupt(int signal) {
         std::raise(signal);  // delivered when the handler returns
     }
     interrupts().request_stop();
-    // Wakes the main thread, the only one that may be in a blocking call.
-    if (!pthread_equal(pthread_self(), main_thread)) pthread_kill(main_thread, signal);
+    if (in_main) return;
+    woken = 1;
+    pthread_kill(main_thread, signal);
 }
 
 std::string duration(double seconds) {

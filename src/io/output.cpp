@@ -217,6 +217,8 @@ void Output::finish() {
 
 bool Output::put(std::string_view bytes) {
     while (!bytes.empty() && !broken_) {
+        // Also before the first write: it may wait for a reader, and no other signal will end it.
+        if (stop_.stop_requested()) fail(ErrorKind::cancelled, "interrupted");
         const auto done = ::write(descriptor_, bytes.data(), bytes.size());
         if (done >= 0) {
             bytes.remove_prefix(static_cast<std::size_t>(done));
@@ -228,7 +230,6 @@ bool Output::put(std::string_view bytes) {
         } else if (errno != EINTR) {
             refuse_file(path_, errno);
         }
-        if (stop_.stop_requested()) fail(ErrorKind::cancelled, "interrupted");
     }
     return !broken_;
 }
