@@ -157,9 +157,8 @@ class BoxSampler {
                   Workspace& work, const NearDisks<D, Real>& near,
                   NearDisks<D, Real>& reaching) const {
         if (rounds_.too_small(gap)) return;
-        const Real slack = std::is_same_v<Real, float>
-                               ? std::max(Real{float_slack}, static_cast<Real>(3 * grid_.slack))
-                               : static_cast<Real>(grid_.slack);
+        const Real slack = std::is_same_v<Real, float> ? Real{float_slack_beside(grid_.slack)}
+                                                       : static_cast<Real>(grid_.slack);
         const SubcellBits open =
             uncovered<D, Real>(near, SubcellGrid<D, Real>(gap, grid_.scales), slack, reaching);
         if (open == 0) return;

@@ -33,6 +33,9 @@ inline double distance_slack(const BoxSpace& space, double radius) {
     return 0x1p-49 * (space.largest_coordinate() / radius + 8);
 }
 
+/// Factor of a radius in searches for cells that its disk may reach, in spite of rounding.
+inline double reach_factor(double slack) { return 1 + std::max(1e-6, slack); }
+
 /// Cell by its offset from the first cell of a tile; possibly outside the tile.
 template <std::size_t D>
 using TileCell = std::array<int, D>;
@@ -55,7 +58,7 @@ struct Grid {
             cells[k] = static_cast<std::uint32_t>(along[k]);
             widths[k] = sides[k] / cells[k];
             scales[k] = widths[k] / radius;
-            const double across = radius / widths[k] * (1 + std::max(1e-6, slack));
+            const double across = radius / widths[k] * reach_factor(slack);
             reach[k] = static_cast<int>(across < cells[k] ? across + 1 : cells[k]);
             tiles[k] = (cells[k] + tile_side - 1) / tile_side;
             tile_count *= tiles[k];

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "generators/poisson_disk/maximal_disks.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -15,7 +14,7 @@ namespace {
 /// Whether the samplers of plane/ and space/ apply: in 2-D and 3-D, for five cells or more along
 /// each direction, if a radius spans two of them.
 bool is_fine(const BoxSpace& space, const std::vector<double>& cells, double radius) {
-    const double wider = 1 + std::max(1e-6, distance_slack(space, radius));
+    const double wider = reach_factor(distance_slack(space, radius));
     bool fine = cells.size() <= 3;
     for (std::size_t k = 0; k < cells.size(); ++k) {
         const double across = radius / (space.box.extent(k) / cells[k]) * wider;

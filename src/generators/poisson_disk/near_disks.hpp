@@ -29,6 +29,11 @@ namespace stipple::poisson_disk {
 /// Bound on rounding errors of floats in distances to a rim, for coordinates of a few radii.
 inline constexpr float float_slack = 4e-6F;
 
+/// The same if distances in doubles have errors of up to `slack`, far from the origin.
+inline float float_slack_beside(double slack) {
+    return std::max(float_slack, static_cast<float>(3 * slack));
+}
+
 /// Centres of disks, one direction after the other, padded with eight far centres.
 template <std::size_t D, class Real>
 class NearDisks {

@@ -68,7 +68,7 @@ struct SpaceRules {
     static constexpr double digit = 0x1p-23;  ///< resolution of darts on sub-cells, in cells
 
     explicit SpaceRules(const Grid<3>& box_grid)
-        : grid(box_grid), slack(std::max(float_slack, static_cast<float>(3 * box_grid.slack))) {
+        : grid(box_grid), slack(float_slack_beside(box_grid.slack)) {
         for (std::size_t b = 0; b < about.size(); ++b) {
             const std::array<std::size_t, 3> along{b % 8, b % 40 / 8, b / 40};
             for (std::size_t k = 0; k < 3; ++k) {
