@@ -39,6 +39,14 @@ inline std::vector<PointSet> read_as(std::string_view format, std::string_view b
     return io::format_named(format).read(bytes, options, run);
 }
 
+/// Notes that reading makes, one after another.
+inline std::string notes_of(std::string_view format, std::string_view bytes,
+                            const ReadOptions& options = {}) {
+    std::string notes;
+    read_as(format, bytes, options, {.warn = [&](const std::string& note) { notes += note; }});
+    return notes;
+}
+
 /// Error of reading; empty if there is none.
 inline std::string refusal(std::string_view format, std::string_view bytes,
                            const ReadOptions& options = {}, const RunContext& run = {}) {

@@ -41,7 +41,7 @@ constexpr Blocks published[] = {
      "1269 348b 5ade 7cfg 237a 145c 6bef 89dg 256d 478f 19ae 3bcg 367e 158g 2abf 49cd 13df 24eg "
      "579b 68ac 46ag 359f 17bd 28ce"}};
 
-/// Blocks of the published design. @throws Error(usage) if there is none for this many factors
+/// Blocks of the published design for so many factors. @throws Error(usage) if none is published
 const Blocks& blocks_for(std::size_t factors) {
     const auto* const blocks = std::ranges::lower_bound(published, factors, {}, &Blocks::factors);
     if (blocks->factors != factors)

@@ -24,7 +24,7 @@ std::uint64_t nearest_below(std::uint64_t count) {
     return n;
 }
 
-/// Smallest order of a Hadamard matrix that is at least `count`; 0 if there is none.
+/// Smallest available order of a Hadamard matrix, `count` or more; 0 if all are smaller.
 std::uint64_t nearest_above(std::uint64_t count) {
     if (count > most_hadamard) return 0;
     std::uint64_t n = std::max<std::uint64_t>(4, (count + 3) / 4 * 4);

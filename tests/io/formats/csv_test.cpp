@@ -362,11 +362,7 @@ TEST(Csv, KeepsTheNamesOfColumns) {
 }
 
 TEST(Csv, SaysWhatAFirstLineMayBe) {
-    const auto told = [](std::string_view text) {
-        std::string all;
-        read_as("csv", text, {}, {.warn = [&](const std::string& said) { all += said; }});
-        return all;
-    };
+    const auto told = [](std::string_view text) { return notes_of("csv", text); };
     EXPECT_EQ(told("0.5f\n0.25\n"),
               "p: the first line is read as names of columns, though '0.5f' begins like a number");
     EXPECT_EQ(told("0,1\n0.25,0.5\n"),
@@ -387,15 +383,9 @@ TEST(Csv, PicksNoneOfColumnsOfOneName) {
 }
 
 TEST(Csv, SaysThatWeightsAreNotThoseOfTheDensities) {
-    const auto told = [](std::string_view text) {
-        std::string all;
-        read_as("csv", text, {.densities = true},
-                {.warn = [&](const std::string& said) { all += said; }});
-        return all;
-    };
-    EXPECT_EQ(told("x,pdf,weight\n0.5,3,2\n"),
+    EXPECT_EQ(notes_of("csv", "x,pdf,weight\n0.5,3,2\n", {.densities = true}),
               "p: the column 'weight' is not 1 / pdf, and is not used");
-    EXPECT_EQ(told("x,pdf,weight\n0.5,3,0.3333\n"), "");
+    EXPECT_EQ(notes_of("csv", "x,pdf,weight\n0.5,3,0.3333\n", {.densities = true}), "");
 }
 
 TEST(Csv, WeightsHaveADensity) {
